@@ -9,6 +9,7 @@
 # make check-wheel  a wheel of the product alone, tried out in an empty environment (needs a package index)
 # make check  style, types, structure, complexity, generated documents
 # make bench  the benchmarks, with what a user would pick instead in the same run
+# make fuzz   spoilt files of every kind, read or refused in one line? ten thousand, or make fuzz SECONDS=60 SEED=1
 # make train  the embedded labeler anew, with its page of figures (an hour or more on two cores; needs torch)
 # make docs   write the generated documents anew
 
@@ -24,7 +25,7 @@ BROWSERS := chromium chromium-browser google-chrome google-chrome-stable microso
 WEB_TOOLS := web/node_modules/.package-lock.json
 NO_NODE := the page needs Node 20 or newer with npm to be built or checked: https://nodejs.org; the one that is built already works without
 
-.PHONY: demo test test-fast test-physics browser web web-tools web-test screenshots check check-wheel bench train docs clean
+.PHONY: demo test test-fast test-physics browser web web-tools web-test screenshots check check-wheel bench fuzz train docs clean
 
 demo: $(VENV)/.with-all
 	$(BIN)/cadgraph demo --output demo
@@ -90,6 +91,13 @@ check-wheel: $(VENV)/bin/python
 
 bench: $(VENV)/.with-dev
 	@for f in packages/cadlab/benchmarks/[!_]*.py; do echo "== $$f"; $(BIN)/python $$f || exit 1; done
+
+MUTATIONS := 10000
+SECONDS := 0
+SEED :=
+
+fuzz: $(VENV)/.with-dev
+	$(BIN)/python -m cadlab.fuzz --mutations $(MUTATIONS) --seconds $(SECONDS) $(if $(SEED),--seed $(SEED)) --keep fuzz-found
 
 train: $(VENV)/.with-train
 	$(BIN)/python -m cadlab.training

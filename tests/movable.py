@@ -88,7 +88,8 @@ def write(path, style=None):
 
 def shown(path):
     """What a file shows, whatever it is called: corners of boxes, numbers of triangles, colours; in order."""
-    scene = load(path, QUICK)
+    # What is written of a plant lies over it, in a folder beside it.
+    scene = load(path, QUICK.model_copy(update={"asset_roots": ("..",)}))
     rows = [
         (*np.round(scene.mesh(i)[0].min(0), 5), *np.round(scene.mesh(i)[0].max(0), 5), len(scene.mesh(i)[1]))
         for i in range(scene.n_meshes)

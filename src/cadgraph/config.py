@@ -95,6 +95,34 @@ class LoadConfig(Section):
     max_triangles: int = _setting(
         50_000_000, "cut curved RVM surfaces coarser where the scene would have more triangles", ge=1000
     )
+    asset_roots: tuple[str, ...] = _setting(
+        (),
+        "folders that a USD scene may bring files from, beside its own folder and all below; counted from that folder",
+    )
+    memory: float | None = _setting(
+        None,
+        "memory that reading may take [GB], where the system can hold a process to it; none: what the machine has",
+        gt=0,
+        le=1_000_000,
+    )
+    max_meshes: int = _setting(5_000_000, "refuse a scene of more meshes, with all its instances", ge=1)
+    max_prims: int = _setting(
+        20_000_000,
+        "refuse a USD scene that its references make more prims of than these, before they are composed",
+        ge=1,
+    )
+    max_shape_triangles: int = _setting(
+        200_000_000, "refuse a scene of more triangles, those of each shape counted once", "ours: about 20 GB", ge=1
+    )
+    max_placed_triangles: int = _setting(
+        5_000_000_000, "refuse a scene of more triangles, those of a shape counted for each place that it has", ge=1
+    )
+    max_growth: float = _setting(
+        10.0,
+        "refuse a file that grows to more meshes or prims than these for each of its bytes, beyond the first 50,000",
+        "ours: an instance takes 4 bytes or more in any real file",
+        gt=0,
+    )
     metadata: Literal["off", "keep"] = _setting(
         "keep", "what the file says of its parts (types, tags, systems): leave it, or keep it beside the geometry"
     )
@@ -296,6 +324,14 @@ class ReportConfig(Section):
     max_systems: int = _setting(12, "at most so many structures with pipes are drawn, the largest first", ge=0, le=1000)
 
 
+class GraphConfig(Section):
+    """How the graph is written."""
+
+    shard_above: int = _setting(
+        200_000, "kinds of nodes and edges of more rows than that go into shards beside graph.json", ge=1
+    )
+
+
 class Config(Section):
     """All settings."""
 
@@ -311,6 +347,7 @@ class Config(Section):
     label: LabelConfig = LabelConfig()
     lvlm: LvlmConfig = LvlmConfig()
     relate: RelateConfig = RelateConfig()
+    graph: GraphConfig = GraphConfig()
     report: ReportConfig = ReportConfig()
 
     def replace(self, changes: Mapping[str, Any]) -> Config:

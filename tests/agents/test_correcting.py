@@ -6,6 +6,7 @@ from contextlib import closing
 import pytest
 
 from agents_asking import ask, text
+from cadgraph._io.folder_lock import LOCK
 from cadgraph.agents.answer import AskError
 from cadgraph.agents.correcting import Desk
 from cadgraph.agents.plants import Plants
@@ -25,7 +26,7 @@ def digests(folder):
     return {
         str(path.relative_to(folder)): (hashlib.sha256(path.read_bytes()).hexdigest(), path.stat().st_mtime_ns)
         for path in folder.rglob("*")
-        if path.is_file()
+        if path.is_file() and path.name != LOCK
     }
 
 
@@ -97,8 +98,9 @@ def test_corrections_of_another_program_are_told_not_written_over(blocks):
 def test_corrections_that_the_graph_lacks_are_told_before_ids_are_used(blocks):
     with closing(Plants(blocks, "robot")) as plants:
         plants.desk("").correct("part-00001", "gauge", "first", this_only=True, dry_run=False)
-        lacking = (blocks / "graph.json").read_bytes()
-    (blocks / "graph.json").write_bytes(lacking)
+        lacking = {name: (blocks / name).read_bytes() for name in ("graph.json", "manifest.json")}
+    for name, content in lacking.items():
+        (blocks / name).write_bytes(content)
     with closing(Plants(blocks, "robot")) as plants:
         told, tried = ask(plants, *[("correct", {"target": "part-00002", "label": "gauge", "why": "second"})] * 2)
     assert "ids may mean other parts" in text(told)

@@ -17,6 +17,7 @@ from cadgraph.agents.mcp.server import make_server
 from cadgraph.agents.picture import picture
 from cadgraph.agents.plants import Plants
 from cadgraph.errors import AskError, LoadError
+from cadgraph.model.graph import SceneGraph
 from serving import copy_of, make_folder
 
 DRAW = ("picture", {"plant": "blocks", "target": "part-00001"})
@@ -103,7 +104,7 @@ def test_what_can_not_be_drawn_is_refused_as_by_the_command(plants, folders):
     document = plants.get("changed").graph.document.model_dump(mode="json")
     for sha256, error, words in (("0" * 64, AskError, "has changed"), ("", LoadError, r"plant\.usda")):
         document["source"]["sha256"] = sha256
-        (folders / "changed" / "graph.json").write_text(json.dumps(document))
+        SceneGraph.from_json(document).save(folders / "changed")
         with pytest.raises(error, match=words):
             plants.picture("changed", "part-00001")
 

@@ -305,15 +305,24 @@ def test_want_of_memory_is_one_line(capsys, monkeypatch, tmp_path):
     assert "not enough memory" in refused(capsys, "build", "a.usd", "-o", tmp_path / "out")
 
 
-def test_an_earlier_report_is_gone_when_the_new_run_draws_none(capsys, scene_file, tmp_path):
+def test_an_earlier_report_says_so_when_the_new_run_draws_none(capsys, scene_file, tmp_path):
     small = [word for name in ("samples=1", "width=64", "height=64") for word in ("--set", f"report.{name}")]
     flags = ("-o", tmp_path / "out", *small)
     run(capsys, "build", scene_file, *flags)
     (tmp_path / "out" / "notes.txt").write_text("mine")
     (tmp_path / "out" / ".graph-abcdefgh.json").write_text("left by a killed run")
-    run(capsys, "build", scene_file, *flags, "--no-report")
+    _, out, _ = run(capsys, "build", scene_file, *flags, "--no-report")
+    assert "earlier graph" not in out, "it is the same graph"
+    _, out, _ = run(capsys, "build", scene_file, *flags, "--no-report", "--set", "label.labeler=none")
     names = sorted(path.name for path in (tmp_path / "out").iterdir())
-    assert names == ["graph.json", "notes.txt", "semantics.usda", "timings.json"]
+    kept = ["manifest.json", "notes.txt", "picture.png", "report.html", "semantics.usda", "timings.json"]
+    assert names == ["graph.json", *kept]
+    assert "picture.png, report.html: of an earlier graph; 'cadgraph build' or 'relabel' draws it anew" in out
+    assert b"This report shows an earlier graph" in (tmp_path / "out" / "report.html").read_bytes()
+    assert "report.html: of an earlier graph" in run(capsys, "show", tmp_path / "out")[1]
+    _, out, _ = run(capsys, "build", scene_file, *flags, "--no-report")
+    assert "earlier graph" not in out, "it is the graph of the report again"
+    assert b"This report shows an earlier graph" not in (tmp_path / "out" / "report.html").read_bytes()
 
 
 def test_a_failed_run_leaves_the_earlier_results(capsys, scene_file, tmp_path):

@@ -36,8 +36,8 @@ def write(folder, text, name):
     return path
 
 
-def read(path):
-    return load(path, LoadConfig(isolate=False))
+def read(path, **settings):
+    return load(path, LoadConfig(isolate=False, **settings))
 
 
 def plant(folder, n=4):
@@ -84,14 +84,14 @@ def Xform "World" {{ {valves}
     )
 
 
-def said(scene, names=None, group="Valve assembly"):
+def said(scene, names=None, group="Valve assembly", **more):
     """A graph with a part for each mesh, called as ``names`` says by the end of its path, else by its last step."""
     parts = []
     for number, path in enumerate(scene.paths):
         found = [name for end, name in (names or {}).items() if path.endswith(end)]
         name = found[0] if found else path.rsplit("/", 1)[-1].split("[")[0]
         parts.append(graphs.part(number, path, label=graphs.label(group, name) if name else None))
-    return graphs.graph(parts)
+    return graphs.graph(parts, **more)
 
 
 def wanted(graph):
@@ -410,8 +410,11 @@ def test_the_layer_and_the_stage_are_formats_of_their_own(tmp_path):
 @pytest.mark.skipif(not TEAPOTS.exists(), reason="no further real files here")
 def test_every_mesh_of_a_real_scene_has_its_own_label(tmp_path):
     delegate = UsdUtils.CoalescingDiagnosticDelegate()
-    scene = read(TEAPOTS)
-    graph = said(scene, {path: f"name {number % 5}" for number, path in enumerate(scene.paths)})
-    stage, _ = baked(TEAPOTS, graph, tmp_path / "teapots.usdc")
+    # Its assets are in a folder beside that of the scene, which the graph keeps.
+    scene = read(TEAPOTS, asset_roots=("..",))
+    names = {path: f"name {number % 5}" for number, path in enumerate(scene.paths)}
+    graph = said(scene, names, config={"load": {"asset_roots": [".."]}})
+    file, _ = write_baked(scene, graph, TEAPOTS, tmp_path / "teapots.usdc")
+    stage = Usd.Stage.Open(str(file))
     assert drawn_labels(stage) == wanted(graph)
     delegate.TakeUncoalescedDiagnostics()

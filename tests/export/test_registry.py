@@ -3,6 +3,7 @@ import pytest
 import graphs
 from cadgraph.errors import OutputError
 from cadgraph.export import export_graph, formats
+from cadgraph.model.graph import SceneGraph
 
 ALL = [
     "att",
@@ -14,19 +15,29 @@ ALL = [
     "html",
     "ifc",
     "isometric",
+    "json",
     "labels-csv",
     "mjcf",
     "networkx-json",
     "pcf",
+    "shards",
     "usd",
 ]
 ALONE = [name for name in ALL if name not in ("gltf", "html", "ifc", "mjcf", "usd")]  # those that need no source
-FILLED = [name for name in ALONE if name not in ("isometric", "pcf")]  # those that a graph without centrelines fills
+FILLED = [name for name in ALONE if name not in ("isometric", "pcf", "shards")]  # those that fill one graph's folder
 
 
 def test_formats_are_named_in_order_with_their_meaning():
     assert list(formats()) == ALL
     assert all(formats().values())
+
+
+def test_shards_and_one_file_are_each_made_of_the_other(tmp_path):
+    graph = graphs.valve_line()
+    [index] = export_graph(graph, "shards", tmp_path / "shards")
+    assert list((tmp_path / "shards/graph-shards").iterdir())
+    [whole] = export_graph(SceneGraph.load(index), "json", tmp_path / "whole")
+    assert whole.read_bytes() == graph.save(tmp_path / "plain.json").read_bytes()
 
 
 @pytest.mark.parametrize("to", FILLED)

@@ -1,6 +1,7 @@
 import pytest
 
-from cadgraph._io.run_folder import RESULTS, clear_results, refuse_to_overwrite, results_folder
+from cadgraph._io.folder_lock import LOCK
+from cadgraph._io.run_folder import refuse_to_overwrite, results_folder
 from cadgraph.errors import OutputError
 
 
@@ -25,19 +26,13 @@ def test_a_folder_that_was_there_or_holds_something_stays(tmp_path):
     assert (tmp_path / "a" / "b" / "x").exists()
 
 
-def test_clearing_removes_results_and_nothing_else(tmp_path):
-    for name in (*RESULTS, "mine.txt", "corrections.json"):
-        (tmp_path / name).touch()
-    clear_results(tmp_path)
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["corrections.json", "mine.txt"]
-
-
 def test_what_a_killed_run_left_half_written_goes(tmp_path):
     half = (".graph-12345678.json", ".picture-abcdefgh.png", ".corrections-0a1b2c3d.json")
     for name in (*half, ".graph-mine.json", "corrections.json"):
         (tmp_path / name).touch()
     with results_folder(tmp_path):
-        assert sorted(path.name for path in tmp_path.iterdir()) == [".graph-mine.json", "corrections.json"]
+        kept = {path.name for path in tmp_path.iterdir()} - {LOCK}
+        assert kept == {".graph-mine.json", "corrections.json"}
 
 
 def test_a_graph_vouches_for_what_has_no_mark(tmp_path):
@@ -61,3 +56,12 @@ def test_a_file_that_must_stay_is_known_by_any_path_to_it(tmp_path):
     with pytest.raises(OutputError, match="this is the source itself"):
         refuse_to_overwrite(tmp_path, [tmp_path / "link" / "graph.json"], "the source itself")
     refuse_to_overwrite(tmp_path, [tmp_path / "other.json"], "the source itself")
+
+
+def test_a_manifest_of_another_program_is_left_alone(tmp_path):
+    (tmp_path / "manifest.json").write_text('{"name": "my web page"}')
+    with (
+        pytest.raises(OutputError, match=r"manifest\.json: not written by cadgraph, so it is left alone"),
+        results_folder(tmp_path),
+    ):
+        pass

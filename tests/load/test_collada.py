@@ -58,10 +58,10 @@ def document(primitives, nodes='<node id="n" name="Valve 1">{}</node>', asset=AS
 <scene><instance_visual_scene url="#s"/></scene></COLLADA>"""
 
 
-def loaded(path, text, isolate=False):
+def loaded(path, text, isolate=False, **settings):
     path = path / "a.dae"
     path.write_text(text)
-    return load(path, LoadConfig(isolate=isolate))
+    return load(path, LoadConfig(isolate=isolate, **settings))
 
 
 def codes(scene):
@@ -135,15 +135,12 @@ def test_pictures_are_not_opened_and_nothing_is_printed(tmp_path, capfd):
     assert capfd.readouterr() == ("", "")
 
 
-def test_nodes_that_multiply_are_refused(tmp_path, monkeypatch):
-    from cadgraph.load import collada
-
-    monkeypatch.setattr(collada, "_MAX_NODES", 1000)
+def test_nodes_that_multiply_are_refused(tmp_path):
     nodes = '<node id="n0" name="n">{}</node>' + "".join(
         f'<node id="n{i}">' + f'<instance_node url="#n{i - 1}"/>' * 10 + "</node>" for i in range(1, 6)
     )
-    with pytest.raises(LoadError, match=r"more than 1,000 nodes .*split the scene"):
-        loaded(tmp_path, document(triangles(), nodes))
+    with pytest.raises(LoadError, match=r"more than 1,000 meshes .*; split the scene, or raise load.max_meshes"):
+        loaded(tmp_path, document(triangles(), nodes), max_meshes=1000)
 
 
 @pytest.mark.parametrize(("change", "reason"), [

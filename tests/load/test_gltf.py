@@ -325,13 +325,41 @@ def test_depth_is_bounded(tmp_path):
         loaded(file.glb(tmp_path / "a.glb"))
 
 
-def test_instances_without_bound_are_refused(tmp_path, monkeypatch):
-    monkeypatch.setattr(importlib.import_module("cadgraph.load.gltf"), "MAX_TRIANGLES", 100)
+@pytest.mark.parametrize(
+    ("limits", "told"),
+    [
+        ({"max_placed_triangles": 100}, "more than 100 triangles with all instances.*raise load.max_placed_triangles"),
+        ({"max_meshes": 10}, "more than 10 meshes with all instances; split the scene, or raise load.max_meshes"),
+        ({"max_shape_triangles": 11}, "more than 11 triangles, each shape counted once; .*load.max_shape_triangles"),
+    ],
+)
+def test_instances_without_bound_are_refused(tmp_path, limits, told):
     file = plain()
     for i in range(12):
         file.node(name=f"n{i}", mesh=0)
-    with pytest.raises(LoadError, match="100 triangles with all instances; split the scene"):
+    with pytest.raises(LoadError, match=told):
+        loaded(file.glb(tmp_path / "a.glb"), **limits)
+
+
+def test_instances_that_no_bytes_stand_for_are_refused(tmp_path):
+    file = plain()
+    nothing = file.add("accessors", componentType=5126, type="VEC3", count=9_000_000)
+    extension = {"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": nothing}}}
+    file.tree["nodes"][0]["extensions"] = extension
+    with pytest.raises(LoadError, match="more than 5,000,000 meshes"):
         loaded(file.glb(tmp_path / "a.glb"))
+    with pytest.raises(LoadError, match=r"bytes grow to more than [\d,]+ meshes .*raise load.max_growth"):
+        loaded(file.glb(tmp_path / "a.glb"), max_meshes=100_000_000)
+
+
+def test_one_list_of_triangles_in_many_meshes_is_refused(tmp_path):
+    file = plain()
+    primitive = {**file.tree["meshes"][0]["primitives"][0]}
+    # Twelve triangles each: more than a million in all, of some ten bytes each.
+    whole = file.add("meshes", primitives=[primitive] * 100_000)
+    file.node(name="whole", mesh=whole)
+    with pytest.raises(LoadError, match=r"unpack to more than .* triangles"):
+        loaded(file.glb(tmp_path / "a.glb"), max_growth=0.001)
 
 
 def test_hidden_nodes_are_left_out_unless_asked_for(tmp_path):

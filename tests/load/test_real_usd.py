@@ -17,7 +17,8 @@ from cadgraph.load import load
 
 HERE = Path(__file__).parents[1] / "data"
 DATA = Path(__file__).parents[2] / "../shared/data/usd"
-IN_PROCESS = LoadConfig(isolate=False)
+# Collections keep their assets in folders beside those of their scenes.
+IN_PROCESS = LoadConfig(isolate=False, asset_roots=("..", "../../../.."))
 more = pytest.mark.skipif(not DATA.is_dir(), reason="no further real files here")
 
 CONFORMANCE = [

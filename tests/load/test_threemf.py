@@ -128,13 +128,15 @@ def test_components_in_a_circle_end(tmp_path):
         loaded(tmp_path, model(circle, ITEM))
 
 
-def test_components_that_multiply_are_refused(tmp_path, monkeypatch):
-    monkeypatch.setattr(importlib.import_module("cadgraph.load.threemf"), "_MAX_PLACED", 1000)
+def test_components_that_multiply_are_refused(tmp_path):
     levels = "".join(
         f'<object id="{i + 1}"><components>' + f'<component objectid="{i}"/>' * 10 + "</components></object>"
         for i in range(1, 20)
     )
-    with pytest.raises(LoadError, match=r"more than 1,000 objects .*split the model"):
+    few = LoadConfig(isolate=False, max_meshes=1000)
+    with pytest.raises(LoadError, match=r"more than 1,000 meshes .*; split the scene, or raise load\.max_meshes"):
+        load(write(tmp_path, model(ONE + levels, '<item objectid="20"/>')), few)
+    with pytest.raises(LoadError, match=r"kB grow to more than [\d,]+ meshes .*raise load\.max_growth"):
         loaded(tmp_path, model(ONE + levels, '<item objectid="20"/>'))
 
 

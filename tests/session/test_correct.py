@@ -105,11 +105,11 @@ def test_whenever_a_correction_is_stopped_graph_and_corrections_agree(folder, mo
     def stopped(*_, **__):
         raise KeyboardInterrupt
 
-    for name, kept in (("write_graph", 0), ("write_rest", 1)):
+    for name, kept in (("export.usd.write_semantics", 0), ("draw.report.write_report", 1)):
         with monkeypatch.context() as patched:
-            patched.setattr(f"cadgraph.session.correct.{name}", stopped)
+            patched.setattr(f"cadgraph.{name}", stopped)
             with pytest.raises(KeyboardInterrupt) as ended:
-                amend(folder, "/knob", "Tank", this_only=True, report=False)
+                amend(folder, "/knob", "Tank", this_only=True, report=True)
         assert bool(getattr(ended.value, "__notes__", ())) == bool(kept)
         assert len(read_corrections(folder)) == kept
         assert (label_of(SceneGraph.load(folder), "/knob") == (None, "human")) == bool(kept)
@@ -123,7 +123,7 @@ def test_labels_of_a_model_that_was_asked_are_kept_without_asking(folder):
             node["label"] = {"group": "Tank", "name": "tank", "confidence": 0.7, "source": "lvlm", "evidence": {}}
         elif node["layer"] == "part":
             node["guesses"] = [{"group": "Tank", "name": "shell", "confidence": 0.2}]
-    (folder / "graph.json").write_text(json.dumps(graph))
+    SceneGraph.from_json(graph).save(folder)
     amend(folder, "/a", "handwheel", report=False)
     done = amend(folder, "/a", None, report=False)
     graph = done.outcome.graph

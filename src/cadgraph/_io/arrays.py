@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 import zipfile
 from io import BytesIO
 from typing import IO, Any
@@ -55,7 +56,15 @@ def check_array(file: IO[bytes], size: int, name: str) -> tuple[tuple[int, ...],
     if version not in ((1, 0), (2, 0)):
         raise ValueError(f"unknown kind of array {name}")
     read = np.lib.format.read_array_header_1_0 if version == (1, 0) else np.lib.format.read_array_header_2_0
-    shape, fortran, dtype = read(file)
+    try:
+        with warnings.catch_warnings():
+            # The library would mend a head of Python 2 with a warning; none of our files has one.
+            warnings.simplefilter("error")
+            shape, fortran, dtype = read(file)
+    except (ValueError, EOFError, OSError):
+        raise
+    except Exception as error:  # the head is a text of Python, and parsing it ends in whatever it may
+        raise ValueError(f"the head of {name} can't be read ({type(error).__name__})") from error
     if dtype.hasobject:
         raise ValueError(f"{name} holds objects")
     claimed = dtype.itemsize

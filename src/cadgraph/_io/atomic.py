@@ -11,9 +11,10 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
+from cadgraph._io.staging import staged_path
 from cadgraph.errors import OutputError
 
-__all__ = ["ensure_writable", "replacing", "write_atomically"]
+__all__ = ["ensure_writable", "flush_folder", "replacing", "write_atomically"]
 
 _TRIED = 1 << 16  # bytes: more than a file system keeps beside a name
 
@@ -23,15 +24,17 @@ def replacing(target: str | Path, durable: bool = False) -> Iterator[Path]:
     """A path beside the target to write to; it takes the target's place when the block ends well, else it is removed.
 
     The path keeps the target's suffix, which some libraries choose the format by. A new file gets the modes that any
-    new file gets, one that takes the place of another those of the other.
+    new file gets, one that takes the place of another those of the other. Where files are to come into a folder
+    together (``cadgraph._io.results``), the file waits for the others.
 
     Raises:
         OutputError: the folder can't be made or written to.
     """
     final = Path(target)
+    there = staged_path(final)
     try:
-        final.parent.mkdir(parents=True, exist_ok=True)
-        beside = _make_beside(final)
+        there.parent.mkdir(parents=True, exist_ok=True)
+        beside = _make_beside(there, final)
     except OSError as error:
         raise OutputError(f"{final}: can't be written ({error.strerror}); choose another output folder") from error
     try:
@@ -40,13 +43,13 @@ def replacing(target: str | Path, durable: bool = False) -> Iterator[Path]:
             beside.chmod(stat.S_IMODE(final.stat().st_mode))
         if durable:
             _flush(beside)
-        beside.replace(final)
+        beside.replace(there)
     except OSError as error:
         raise OutputError(f"{final}: can't be written ({error.strerror}); choose another output folder") from error
     finally:
         beside.unlink(missing_ok=True)
     if durable:
-        _flush_folder(final)
+        flush_folder(there)
 
 
 def write_atomically(target: str | Path, content: str | bytes, durable: bool = False) -> None:
@@ -70,8 +73,12 @@ def _flush(file: Path) -> None:
         os.fsync(opened.fileno())
 
 
-def _flush_folder(file: Path) -> None:
-    """Waits until the name of a file is on the disk, on systems and disks that can be asked for that."""
+def flush_folder(file: Path) -> None:
+    """Waits until the name of a file is on the disk, on systems and disks that can be asked for that.
+
+    Raises:
+        OutputError: the disk reports that it couldn't.
+    """
     if not hasattr(os, "O_DIRECTORY"):
         return
     try:
@@ -88,15 +95,15 @@ def _flush_folder(file: Path) -> None:
             ) from error
 
 
-def _make_beside(final: Path) -> Path:
-    """An empty file of a new name beside a target, with the modes that the system gives to new files.
+def _make_beside(there: Path, final: Path) -> Path:
+    """An empty file of a new name beside ``there``, with the modes of the final file, else those of any new file.
 
     ``tempfile`` would make it private, and what the umask is can only be asked by changing it, for all threads.
     """
     # What is to be private is so from the first byte.
     modes = stat.S_IMODE(final.stat().st_mode) & 0o666 | 0o600 if final.exists() else 0o666
     while True:
-        beside = final.with_name(f".{final.stem}-{secrets.token_hex(4)}{final.suffix}")
+        beside = there.with_name(f".{there.stem}-{secrets.token_hex(4)}{there.suffix}")
         with suppress(FileExistsError):
             os.close(os.open(beside, os.O_CREAT | os.O_EXCL | os.O_WRONLY, modes))
             return beside

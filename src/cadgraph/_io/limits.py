@@ -41,7 +41,9 @@ __all__ = [
     "VOCABULARY",
     "WORDS",
     "Limit",
+    "decoded",
     "lines_within",
+    "most_unpacked",
     "read_bytes_within",
     "read_text_within",
     "size_text",
@@ -117,6 +119,16 @@ NOTE = Limit(_MB, "a note between processes")
 """A request or an error takes 1 kB."""
 
 
+def most_unpacked(packed: int, most: int) -> int:
+    """To how many bytes an archive of some bytes may unpack: texts of CAD files shrink to a tenth, at best a thirtieth.
+
+    Args:
+        packed: size of the archive [bytes].
+        most: whatever its size.
+    """
+    return min(most, 16 * _MB + 40 * packed)
+
+
 def read_bytes_within(path: str | Path, limit: Limit, error: type[Exception], remedy: str) -> bytes:
     """The content of a file, if it isn't larger than its kind can be.
 
@@ -155,7 +167,11 @@ def read_text_within(path: str | Path, limit: Limit, error: type[Exception], rem
 
     Args and errors are those of :func:`read_bytes_within`; what is no UTF-8 is an error, too.
     """
-    content = read_bytes_within(path, limit, error, remedy)
+    return decoded(read_bytes_within(path, limit, error, remedy), path, error, remedy)
+
+
+def decoded(content: bytes, path: str | Path, error: type[Exception], remedy: str) -> str:
+    """The text of a file's content, as :func:`read_text_within` gives it; the other arguments are for its error."""
     try:
         text = content.decode("utf-8-sig")
     except UnicodeDecodeError as failure:

@@ -9,20 +9,26 @@ from pathlib import Path
 
 from cadgraph._io.atomic import ensure_writable
 from cadgraph._io.folder_lock import holding
+from cadgraph._io.manifest import CORRECTIONS, GRAPH_FILE, MANIFEST, MARK, RESULTS
+from cadgraph._io.results import new_results, settle, sweep_next
+from cadgraph._io.staging import result_path, staged_path
 from cadgraph.errors import OutputError
 
-__all__ = ["RESULTS", "clear_results", "refuse_foreign", "refuse_to_overwrite", "results_folder", "sweep"]
+__all__ = [
+    "RESULTS",
+    "at_work_in",
+    "coming_into",
+    "one_of_results",
+    "refuse_foreign",
+    "refuse_to_overwrite",
+    "results_folder",
+    "sweep",
+    "tidy",
+]
 
-RESULTS = (
-    *("scene.usdc", "semantics.usda", "report.html", "picture.png", "timings.json"),
-    *("simulation.usda", "devices.json", "graph.json"),
-)
-"""All files that a run may write, and what is written of its graph later. The graph vouches for those without a mark
-of their own, so it goes last."""
-
-_CORRECTIONS = "corrections.json"
 _MARKS = {
-    "graph.json": b'"cadgraph"',
+    GRAPH_FILE: b'"cadgraph"',
+    MANIFEST: MARK.encode(),
     "semantics.usda": b"cadgraph",
     "report.html": b"cadgraph",
     "simulation.usda": b"cadgraph",
@@ -31,22 +37,20 @@ _HEAD = 100_000  # bytes in which a mark stands; the styles of a report come bef
 
 
 @contextmanager
-def results_folder(folder: str | Path) -> Iterator[Path]:
-    """A folder that can be written to and holds nothing of others that a run would write over; nobody else writes.
+def at_work_in(folder: str | Path) -> Iterator[Path]:
+    """A folder that can be written to and that nobody else writes to; what a killed process began is ended first.
 
     When the block fails and the folder didn't exist before, it is gone again unless something was written.
 
     Raises:
-        OutputError: it can't be made or written to, holds a file of somebody else under the name of a result, or
-            another process is at work in it.
+        OutputError: it can't be made or written to, or another process is at work in it.
     """
     target = Path(folder)
     made = [path for path in (target, *target.parents) if not path.exists()]
     try:
         ensure_writable(target)
         with holding(target):
-            refuse_foreign(target)
-            sweep(target)
+            tidy(target)
             yield target
     except BaseException:
         for path in made:
@@ -55,24 +59,65 @@ def results_folder(folder: str | Path) -> Iterator[Path]:
         raise
 
 
-def clear_results(folder: Path, names: Iterable[str] = RESULTS) -> None:
-    """Removes the results of earlier runs, so that the folder never mixes two scenes, even if this run is killed.
-
-    Args:
-        folder: that holds them.
-        names: of the files to remove.
+@contextmanager
+def results_folder(folder: str | Path) -> Iterator[Path]:
+    """As :func:`at_work_in`; nothing of others lies in the folder that a run would write over.
 
     Raises:
-        OutputError: a file can't be removed.
+        OutputError: likewise, or it holds a file of somebody else under the name of a result.
     """
-    for name in names:
-        path = folder / name
-        try:
-            path.unlink(missing_ok=True)
-        except OSError as error:
-            raise OutputError(
-                f"{path}: can't be replaced ({error.strerror}); close what holds it or choose another folder"
-            ) from error
+    with at_work_in(folder) as target:
+        refuse_foreign(target)
+        yield target
+
+
+@contextmanager
+def coming_into(folder: str | Path, graph: str | None = None) -> Iterator[Path]:
+    """What the block writes into a folder comes into it together, when the block ends well; nobody else writes there.
+
+    Within a block on the same folder it is part of that one.
+
+    Args:
+        folder: made if missing.
+        graph: digest of the ``graph.json`` that the files are made of; None: of that which stands in the folder.
+
+    Raises:
+        OutputError: it can't be made or written to, or another process is at work in it.
+    """
+    target = Path(folder)
+    if staged_path(target / GRAPH_FILE) != target / GRAPH_FILE:
+        yield target
+        return
+    with at_work_in(target), new_results(target, graph=graph):
+        yield target
+
+
+@contextmanager
+def one_of_results(path: Path) -> Iterator[None]:
+    """What the block writes to a path renews the manifest of its folder, if that is one of results; else it is a file.
+
+    Raises:
+        OutputError: another process is at work in the folder of results, or it can't be written.
+    """
+    if staged_path(path) != path or not (result_path(path.parent / MANIFEST)).is_file() or path.name not in RESULTS:
+        yield
+        return
+    with at_work_in(path.parent) as folder, new_results(folder):
+        yield
+
+
+def tidy(folder: Path) -> None:
+    """Ends what a process began that was killed: what was complete comes to its places, all else goes.
+
+    Args:
+        folder: that nobody else is at work in.
+
+    Raises:
+        OutputError: a file can't be replaced.
+    """
+    settle(folder)
+    sweep_next(folder)
+    sweep(folder)
 
 
 def sweep(folder: Path) -> None:
@@ -81,7 +126,7 @@ def sweep(folder: Path) -> None:
     Args:
         folder: that nobody else is at work in.
     """
-    for name in (*RESULTS, _CORRECTIONS):
+    for name in (*RESULTS, CORRECTIONS):
         stem, suffix = os.path.splitext(name)
         for stale in folder.glob(f".{stem}-????????{suffix}"):
             with suppress(OSError):
@@ -111,8 +156,8 @@ def refuse_foreign(folder: Path) -> None:
     Raises:
         OutputError: a file of somebody else has the name of a result.
     """
-    ours = _is_marked(folder / "graph.json", _MARKS["graph.json"])
-    for name in RESULTS:
+    ours = _is_marked(folder / GRAPH_FILE, _MARKS[GRAPH_FILE])
+    for name in (MANIFEST, *RESULTS):
         path = folder / name
         if path.is_dir():
             raise OutputError(f"{path}: a folder stands where a result goes; choose another output folder")

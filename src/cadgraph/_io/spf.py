@@ -13,7 +13,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from cadgraph._io.limits import size_text
+from cadgraph._io.limits import most_unpacked, size_text
 from cadgraph.errors import LoadError
 
 __all__ = ["HEAD", "IFC_MARK", "find_ifc_damage", "is_spf", "renamed_schema", "schema_of", "unzipped"]
@@ -88,7 +88,8 @@ def unzipped(path: Path, given: str) -> Iterator[Path]:
         given: its path for messages.
 
     Raises:
-        LoadError: the archive can't be read, holds no IFC file or several, is damaged, or unpacks to more than 4 GiB.
+        LoadError: the archive can't be read, holds no IFC file or several, is damaged, or unpacks to more than 4 GiB or
+            more than such archives do.
     """
     if path.suffix.lower() != ".ifczip":
         yield path
@@ -117,12 +118,12 @@ def _unpack(path: Path, plain: Path, given: str) -> None:
             raise LoadError(f"{given}: the zip archive holds {len(members)} IFC files; unpack it and give one of them")
         with archive.open(members[0]) as packed, plain.open("wb") as file:
             # What the archive says of its sizes may be wrong, so that what comes is counted.
-            left = _MOST_UNPACKED
+            most = left = most_unpacked(path.stat().st_size, _MOST_UNPACKED)
             while left > 0 and (chunk := packed.read(min(_CHUNK, left))):
                 file.write(chunk)
                 left -= len(chunk)
             if left <= 0:
-                limit = size_text(_MOST_UNPACKED)
+                limit = size_text(most)
                 raise LoadError(f"{given}: the zip archive unpacks to more than {limit}; split the model")
 
 

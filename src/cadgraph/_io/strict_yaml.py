@@ -23,7 +23,7 @@ def parse_yaml(text: str, where: str, error: type[Exception]) -> Any:
     """
     try:
         return yaml.load(text, Loader=_StrictLoader)
-    except (yaml.YAMLError, ValueError, RecursionError) as failure:
+    except (yaml.YAMLError, ValueError, TypeError, RecursionError) as failure:
         raise error(f"{where}: not YAML ({_what(failure)})") from failure
 
 

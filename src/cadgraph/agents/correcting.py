@@ -11,7 +11,7 @@ from typing import Any
 
 from cadgraph._io.atomic import ensure_writable
 from cadgraph._io.folder_lock import holding
-from cadgraph._io.run_folder import refuse_foreign
+from cadgraph._io.run_folder import refuse_foreign, tidy
 from cadgraph.agents.answer import Answer, AskError, cell, page_of
 from cadgraph.agents.plant import Plant
 from cadgraph.errors import CadGraphError, OutputError
@@ -75,6 +75,7 @@ class Desk:
         ensure_writable(folder)
         self._held.enter_context(holding(folder))
         try:
+            tidy(folder)
             refuse_foreign(folder)
         except OutputError:
             self._held.close()
@@ -138,7 +139,7 @@ class Desk:
 
     def _publish(self, graph: SceneGraph) -> None:
         self.graph = graph
-        self._saver.give(graph)
+        self._saver.give((graph, None if self._session is None else self._session.kept))
 
     def _ready(self) -> Session:
         if not self._opened.wait(_PATIENCE):
@@ -178,9 +179,10 @@ class Desk:
         if stage:
             self._told = f"{stage}, {share:.0%}"
 
-    def _save(self, graph: SceneGraph) -> None:
+    def _save(self, content: tuple[SceneGraph, str | None]) -> None:
         if self.scene is not None and self._source is not None:
-            write_graph(self.scene, graph, self._source, self._folder)
+            graph, corrections = content
+            write_graph(self.scene, graph, self._source, self._folder, corrections)
 
     def _saved(self, failed: str | None) -> None:
         self._unsaved = failed

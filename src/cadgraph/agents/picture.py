@@ -52,7 +52,7 @@ def picture(plant: Plant, target: str) -> Picture:
     from cadgraph.agents.drawing.drawer import Drawer, read_scene
 
     order = order_of(plant, target)
-    return Drawer(read_scene(plant.graph.source, plant.graph.document.config, plant.folder)).draw(order)
+    return Drawer(read_scene(plant.graph.source, plant.graph.config, plant.folder)).draw(order)
 
 
 def _meshes_of(parts: Sequence[Part]) -> tuple[str, ...]:

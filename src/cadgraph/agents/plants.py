@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from cadgraph._io.staging import result_path
 from cadgraph.agents.answer import Answer, AskError, cell, did_you_mean, page_of, row
 from cadgraph.agents.drawing.messages import Request
 from cadgraph.agents.drawing.order import Picture
@@ -50,7 +51,7 @@ class _Opened:
             if self.plant is None or self.plant.graph is not graph:
                 self.plant = Plant(graph, self.folder)
             return self.plant
-        stamp = _stamp(self.folder / _GRAPH)
+        stamp = _stamp(result_path(self.folder / _GRAPH))
         if self.plant is None or stamp != self.stamp:
             self.plant, self.stamp = Plant.open(self.folder), stamp
         return self.plant
@@ -74,11 +75,11 @@ class Plants:
         self._lock = threading.Lock()
         self._opened: dict[str, _Opened] = {}
         self._drawing = DrawingProcess()
-        if not where.is_dir() and not (where.name == _GRAPH and where.is_file()):
+        if not where.is_dir() and not (where.name == _GRAPH and result_path(where).is_file()):
             # Its neighbours must never answer for a folder that is gone.
             raise FormatError(f"{where}: no such folder; give what 'cadgraph build' wrote, or a folder of such folders")
         self._root = where if where.is_dir() else where.parent
-        self.several = not (where.name == _GRAPH or (where / _GRAPH).is_file())
+        self.several = not (where.name == _GRAPH or result_path(where / _GRAPH).is_file())
         if self.several and not self._folders():
             raise FormatError(f"{where}: holds no graph.json, nor do folders in it; give what 'cadgraph build' wrote")
         if not self.several:
@@ -177,7 +178,7 @@ class Plants:
         found: dict[str, Path] = {}
         for folder in self._root.iterdir():
             with suppress(OSError):
-                if (folder / _GRAPH).is_file():
+                if result_path(folder / _GRAPH).is_file():
                     found[folder.name] = folder
         return found
 

@@ -11,6 +11,7 @@ from cadgraph.cli.application import app
 from cadgraph.cli.asking import AskingOptions, asks
 from cadgraph.cli.options import (
     USE_METADATA,
+    AssetRootOption,
     ConfigOption,
     MetadataOption,
     MethodOption,
@@ -59,6 +60,7 @@ def build(
     unit: UnitOption = None,
     scale: ScaleOption = None,
     up: UpOption = None,
+    asset_roots: AssetRootOption = None,
     strict: StrictOption = False,
     use_metadata: MetadataOption = False,
     method: MethodOption = None,
@@ -70,7 +72,7 @@ def build(
     from cadgraph.session.run import run
 
     changes = [*(settings or [])]
-    chosen = settings_of(config, changes, method, unit, up, scale=scale, strict=strict)
+    chosen = settings_of(config, changes, method, unit, up, scale=scale, strict=strict, asset_roots=asset_roots)
     if ground:
         find = "none" if ground == ["none"] else "named"
         chosen = chosen.replace({"ground.find": find, "ground.meshes": [] if find == "none" else ground})

@@ -10,7 +10,7 @@ import typer
 from rich.markup import escape
 
 from cadgraph.cli.application import app
-from cadgraph.cli.screen import bars, out, say_json
+from cadgraph.cli.screen import bars, out, say_json, tell_state
 
 if TYPE_CHECKING:
     from cadgraph.model.graph import SceneGraph
@@ -109,6 +109,7 @@ def correct(
     if len(done.changed) > _SHOWN:
         out.print(f"{len(done.changed) - _SHOWN:,} more are not shown")
     _tell_lost(done.lost)
+    tell_state(done.outcome.earlier, done.outcome.removed)
 
 
 @app.command()

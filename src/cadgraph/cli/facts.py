@@ -12,6 +12,7 @@ from rich.markup import escape
 from cadgraph._io.text import printable
 from cadgraph.cli.application import app
 from cadgraph.cli.options import (
+    AssetRootOption,
     ConfigOption,
     ScaleOption,
     SetOption,
@@ -43,6 +44,7 @@ def facts(
     unit: UnitOption = None,
     scale: ScaleOption = None,
     up: UpOption = None,
+    asset_roots: AssetRootOption = None,
 ) -> None:
     """List what a file says of its parts: each value, how often, the label that it speaks for and by what rule.
 
@@ -54,7 +56,7 @@ def facts(
     from cadgraph.load import load
     from cadgraph.model.vocabulary import default_vocabulary, read_vocabulary
 
-    chosen = settings_of(config, settings or [], None, unit, up, scale=scale)
+    chosen = settings_of(config, settings or [], None, unit, up, scale=scale, asset_roots=asset_roots)
     known = read_words(words or chosen.label.words)
     tree = read_vocabulary(vocabulary) if vocabulary else default_vocabulary()
     loaded = load(scene, chosen.load)

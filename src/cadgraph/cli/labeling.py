@@ -10,6 +10,7 @@ from rich.markup import escape
 
 from cadgraph.cli.application import app
 from cadgraph.cli.options import (
+    AssetRootOption,
     ConfigOption,
     GraphArgument,
     ScaleOption,
@@ -19,7 +20,7 @@ from cadgraph.cli.options import (
     UpOption,
     settings_of,
 )
-from cadgraph.cli.screen import bars, err, out, say_json
+from cadgraph.cli.screen import bars, err, out, say_json, tell_state
 
 catalogs = typer.Typer(no_args_is_help=True, help="Catalogues of your own parts: add to one, list it.")
 app.add_typer(catalogs, name="catalog")
@@ -99,6 +100,7 @@ def relabel(
         out.print(f"[dim]{p.id:<12}[/]{escape(_said(p))}{escape(f': {why}') if why else ''}")
     more = f", {len(others) - _SHOWN} of them not shown" if len(others) > _SHOWN else ""
     out.print(f"{len(others):,} other parts changed{more}")
+    tell_state(done.outcome.earlier, done.outcome.removed)
 
 
 def _said(part: Part) -> str:
@@ -129,6 +131,7 @@ def add_(
     unit: UnitOption = None,
     scale: ScaleOption = None,
     up: UpOption = None,
+    asset_roots: AssetRootOption = None,
     strict: StrictOption = False,
 ) -> None:
     """Add parts to a catalogue, from CAD files under one label or from graphs with theirs.
@@ -137,6 +140,7 @@ def add_(
     the whole file, for devices that plants hold as one mesh. Of a graph the parts that were labelled by hand or from
     outside are taken, or with --only those of one label.
     """
+    from cadgraph._io.folder_lock import holding
     from cadgraph.model.catalog import read_catalog, write_catalog
     from cadgraph.model.given_labels import split_label
     from cadgraph.model.vocabulary import default_vocabulary, read_vocabulary
@@ -148,25 +152,29 @@ def add_(
         err.print(
             f"[dim]{escape(str(label))} is not in the built-in vocabulary; build with the --vocabulary that has it[/]"
         )
-    chosen = settings_of(config, settings or [], None, unit, up, scale=scale, strict=strict)
-    whole = read_catalog(catalog) if catalog.exists() else EMPTY
+    chosen = settings_of(config, settings or [], None, unit, up, scale=scale, strict=strict, asset_roots=asset_roots)
     wanted = split_label(only, None) if only is not None else None
-    for file in files:
-        if file.is_dir() or file.name == "graph.json":
-            if merge:
-                raise ValueError(f"{file}: --merge is for CAD files; a graph has its parts")
-            if unit is not None or up is not None:
-                raise ValueError(f"{file}: --unit and --up are for CAD files; a graph knows how its scene was read")
-            taken = take_graph(whole, file, wanted, meant, scene)
-        else:
-            if meant is None:
-                raise ValueError(f"{file}: say what it is with --as 'group/name'")
-            if only is not None:
-                raise ValueError(f"{file}: --only is for graphs; a CAD file has no labels")
-            taken = take_file(whole, file, *meant, merge=merge, config=chosen)
-        whole = taken.catalog
-        _tell(file, taken, merge)
-    write_catalog(whole, catalog)
+    # What two add at once must both be in it.
+    with holding(catalog.parent):
+        whole = read_catalog(catalog) if catalog.exists() else EMPTY
+        for file in files:
+            if file.is_dir() or file.name == "graph.json":
+                if merge:
+                    raise ValueError(f"{file}: --merge is for CAD files; a graph has its parts")
+                if unit is not None or up is not None or scale is not None:
+                    raise ValueError(
+                        f"{file}: --unit, --scale and --up are for CAD files; a graph knows how its scene was read"
+                    )
+                taken = take_graph(whole, file, wanted, meant, scene)
+            else:
+                if meant is None:
+                    raise ValueError(f"{file}: say what it is with --as 'group/name'")
+                if only is not None:
+                    raise ValueError(f"{file}: --only is for graphs; a CAD file has no labels")
+                taken = take_file(whole, file, *meant, merge=merge, config=chosen)
+            whole = taken.catalog
+            _tell(file, taken, merge)
+        write_catalog(whole, catalog)
     out.print(f"wrote {escape(str(catalog))}: {_entries(len(whole.entries))}")
 
 

@@ -13,6 +13,7 @@ from cadgraph.cli.application import app
 from cadgraph.cli.asking import AskingOptions, asks
 from cadgraph.cli.options import (
     USE_METADATA,
+    AssetRootOption,
     ConfigOption,
     MetadataOption,
     ScaleOption,
@@ -147,6 +148,7 @@ def grow_(
     unit: UnitOption = None,
     scale: ScaleOption = None,
     up: UpOption = None,
+    asset_roots: AssetRootOption = None,
     strict: StrictOption = False,
 ) -> None:
     """Show a model overview pictures one after the other, and add the labels that it misses."""
@@ -159,7 +161,9 @@ def grow_(
 
     if empty and start:
         raise ValueError("--empty and --from contradict each other; give one")
-    chosen = asking.settings(settings_of(config, settings or [], None, unit, up, scale=scale, strict=strict))
+    chosen = asking.settings(
+        settings_of(config, settings or [], None, unit, up, scale=scale, strict=strict, asset_roots=asset_roots)
+    )
     tree = Vocabulary({}) if empty else read_vocabulary(start) if start else default_vocabulary()
     kept = output.parent / f"{output.stem}-lvlm"
     with bars() as progress:

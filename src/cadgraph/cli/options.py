@@ -17,6 +17,7 @@ from cadgraph.config import Config, read_config
 
 __all__ = [
     "USE_METADATA",
+    "AssetRootOption",
     "ConfigOption",
     "GraphArgument",
     "MetadataOption",
@@ -52,6 +53,14 @@ UnitOption = Annotated[
 UpOption = Annotated[
     str | None, typer.Option("--up", metavar="AXIS", help="Up axis of the file, whatever it says: X, Y or Z.")
 ]
+AssetRootOption = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--asset-root",
+        metavar="DIR",
+        help="Folder that a USD scene may bring files from beside its own, counted from there: .. May be repeated.",
+    ),
+]
 ScaleOption = Annotated[
     float | None,
     typer.Option("--scale", metavar="F", help="Multiply the file's lengths, in the unit it says (metres if none)."),
@@ -75,6 +84,7 @@ def settings_of(
     *,
     scale: float | None = None,
     strict: bool = False,
+    asset_roots: Sequence[str] | None = None,
 ) -> Config:
     """Defaults, then the file, then flags; a setting of an earlier version is told."""
     values = values_of(changes)
@@ -82,6 +92,7 @@ def settings_of(
         "method": method,
         "load.unit": unit,
         "load.up": up.upper() if up else None,
+        "load.asset_roots": tuple(asset_roots) if asset_roots else None,
         "load.scale": scale,
         "load.strict": strict or None,
     }

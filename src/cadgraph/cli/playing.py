@@ -56,14 +56,16 @@ def show_film(film: Film, process: Process, source: Path | None, folder: Path) -
     Returns:
         What was played and written, for JSON and for :func:`say_played`.
     """
+    from cadgraph._io.run_folder import coming_into
     from cadgraph.config import restore_config
     from cadgraph.export.source import find_source
     from cadgraph.load import load
     from cadgraph.simulate.play.showing import show
 
     graph = process.network.graph
-    scene = load(find_source(graph, source), restore_config(graph.document.config).load)
-    shown = show(film, graph, scene, process.scenario, folder)
+    scene = load(find_source(graph, source), restore_config(graph.config).load)
+    with coming_into(folder):
+        shown = show(film, graph, scene, process.scenario, folder)
     return {
         "played": {"seconds": film.seconds, "moves": [move.values() for move in film.moves]},
         "pictures": list(shown.times),

@@ -11,7 +11,7 @@ from rich.markup import escape
 
 from cadgraph.cli.application import app
 from cadgraph.cli.options import ConfigOption, GraphArgument, SetOption, settings_of
-from cadgraph.cli.screen import note_line, out, say_json, summary_lines
+from cadgraph.cli.screen import note_line, out, say_json, summary_lines, tell_state
 from cadgraph.config import to_toml
 
 
@@ -21,6 +21,7 @@ def show(
     as_json: Annotated[bool, typer.Option("--json", help="Print the summary as JSON.")] = False,
 ) -> None:
     """Say what a graph holds."""
+    from cadgraph._io.manifest import GRAPH_FILE, behind, changed_by_others, of_an_earlier_graph
     from cadgraph.model.graph import SceneGraph
     from cadgraph.query.summary import summarize
 
@@ -30,6 +31,14 @@ def show(
         return
     for line in summary_lines(summary):
         out.print(line)
+    folder = graph if graph.is_dir() else graph.parent
+    if graph.is_dir() or graph.name == GRAPH_FILE:
+        tell_state(of_an_earlier_graph(folder), changed=changed_by_others(folder))
+        if behind(folder):
+            out.print(
+                f"[dim]{'mind':<15}[/]corrections.json: not what this graph shows; 'cadgraph build' or 'cadgraph view' "
+                "brings the graph up to it"
+            )
 
 
 @app.command()

@@ -18,8 +18,17 @@ from rich.segment import Segment
 from cadgraph._io.progress import quiet
 from cadgraph._io.text import harmless
 
-__all__ = ["bars", "err", "note_line", "out", "say", "say_json", "summary_lines", "tell", "tell_next"]
+__all__ = [
+    "bars", "err", "note_line", "out", "say", "say_json", "summary_lines", "tell", "tell_next", "tell_state",
+]  # fmt: skip
 
+_REMEDY = "'cadgraph build' makes it anew"
+_REMEDIES = {
+    "report.html": "'cadgraph build' or 'relabel' draws it anew",
+    "picture.png": "'cadgraph build' or 'relabel' draws it anew",
+    "simulation.usda": "'cadgraph simulate' makes it anew",
+    "devices.json": "'cadgraph simulate' makes it anew",
+}
 _MOST_NAMES = 12  # units that are named on one line
 _MOST_PATHS = 3  # meshes that a note names
 
@@ -64,8 +73,8 @@ def say_json(values: Any) -> None:
     """Prints values as JSON; what a terminal would obey stands there escaped, so that nothing is lost."""
     text = json.dumps(values, ensure_ascii=False, indent=1)
     # Half a character, as a model or a file may have it, can't be printed.
-    told = _CONTROL.sub(lambda found: f"\\u{ord(found[0]):04x}", text).encode("utf-8", "replace")
-    typer.echo(told)
+    told = _CONTROL.sub(lambda found: f"\\u{ord(found[0]):04x}", text)
+    typer.echo(told.encode("utf-8", "replace").decode("utf-8"))
 
 
 @contextmanager
@@ -113,6 +122,25 @@ def tell(outcome: Any) -> None:
     for purpose, words in names.items():
         if purpose in outcome.files:
             out.print(f"[dim]{words:<15}[/][bold]{escape(str(outcome.files[purpose]))}[/]")
+    tell_state(outcome.earlier, outcome.removed)
+
+
+def tell_state(earlier: Sequence[str], removed: Sequence[str] = (), changed: Sequence[str] = ()) -> None:
+    """Says which files of a folder don't belong to its graph, and how they come to.
+
+    Args:
+        earlier: names of those that show an earlier graph.
+        removed: names of those that went with it.
+        changed: names of those that are gone, or not what was written.
+    """
+    for names, what in (
+        (earlier, "of an earlier graph"),
+        (removed, "of the earlier graph, removed"),
+        (changed, "changed or taken away since it was written"),
+    ):
+        remedies = dict.fromkeys(_REMEDIES.get(name, _REMEDY) for name in names)
+        if names:
+            out.print(f"[dim]{'mind':<15}[/]{', '.join(names)}: {what}; {', '.join(remedies)}")
 
 
 def tell_next(commands: Sequence[str]) -> None:

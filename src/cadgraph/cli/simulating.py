@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -68,13 +69,14 @@ def simulate(
     if play is not None and commands:
         raise ValueError("--play and --set: give one of them; what --set says can stand in the timetable, at: 0")
     scenario = scenario if play is None else supposed_by(play, scenario)
-    process, file, written = _open(graph, scenario, Process)
-    before, values = standing(process), state_values(process)
-    if commands:
-        process.steady(commands)
-    film = None if play is None else play_timetable(process, play, seconds)
-    stage = None if commands else write_stage_beside(graph, source, needles)
     folder = graph if graph.is_dir() else graph.parent
+    with _writing(folder, scenario, commands):
+        process, file, written = _open(graph, scenario, Process)
+        before, values = standing(process), state_values(process)
+        if commands:
+            process.steady(commands)
+        film = None if play is None else play_timetable(process, play, seconds)
+        stage = None if commands else write_stage_beside(graph, source, needles)
     shown = None if film is None else show_film(film, process, source, folder)
     changed = bool(commands) or film is not None
     if as_json:
@@ -89,6 +91,15 @@ def simulate(
         out.print()
         say_played(shown)
     _tell_assumed(process, file, written)
+
+
+def _writing(folder: Path, scenario: Path | None, commands: dict[str, float]) -> AbstractContextManager[Any]:
+    """All that is written comes into the folder together; whoever only asks what a change does keeps nobody out."""
+    from cadgraph._io.run_folder import coming_into
+    from cadgraph.hydraulics.scenario_file import SCENARIO
+
+    asks = commands and (scenario is not None or (folder / SCENARIO).exists())
+    return nullcontext() if asks else coming_into(folder)
 
 
 def _commands(changes: Sequence[str]) -> dict[str, float]:

@@ -48,7 +48,7 @@ def tasks(
     beside = (graph if graph.is_dir() else graph.parent) / SCENARIO
     file = scenario or (beside if beside.exists() else None)
     process = Process(plant, file)
-    scene = load(find_source(plant, source), restore_config(plant.document.config).load)
+    scene = load(find_source(plant, source), restore_config(plant.config).load)
     made = make_tasks(plant, scene, process.scenario, seed=seed, n=n)
     made.write(output)
     counts = Counter(task.kind for task in made.tasks)

@@ -49,8 +49,7 @@ def view(
     A scene is built first, with its progress in the page; of a scene whose results are there already, these are opened.
     --config and --set build it anew. The page is served on this machine alone, works offline, and needs the token in
     the address that is printed. Each correction is in corrections.json before the page shows it; graph.json and
-    semantics.usda follow a moment later. The report, which shows the graph as it was, is removed then; --report draws
-    it anew.
+    semantics.usda follow a moment later. The report then says that it shows an earlier graph; --report draws it anew.
     """
     try:
         from cadgraph.serve.order import order_of

@@ -42,7 +42,7 @@ def group_colors(graph: SceneGraph) -> dict[str, str]:
         ``"#rrggbb"`` by group, in the order of the vocabulary.
     """
     used = {part.label.group for part in graph.parts() if part.label is not None}
-    names = list(graph.document.vocabulary)
+    names = list(graph.vocabulary)
     names += sorted(used - set(names))
     others = [name for name in names if name not in _GROUPS]
     # The first few of the distinct colours come close to the fixed ones: purple, green, red.
@@ -53,7 +53,7 @@ def group_colors(graph: SceneGraph) -> dict[str, str]:
 def color_of_unit_type(graph: SceneGraph, colors: dict[str, str]) -> dict[str, str]:
     """The colour of each unit type: that of the group whose parts form it."""
     found = {}
-    for group, content in graph.document.vocabulary.items():
+    for group, content in graph.vocabulary.items():
         unit_type = content.get("unit") if isinstance(content, dict) else None
         if isinstance(unit_type, str):
             found[unit_type] = colors[group]

@@ -13,11 +13,13 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from pxr import Sdf, Tf, Usd, UsdUtils
+from pxr import Sdf, Tf, UsdUtils
 
+from cadgraph.config import LoadConfig
 from cadgraph.errors import LoadError, OutputError
 from cadgraph.export.baked_files import Files
 from cadgraph.export.baked_labels import LayerLabels
+from cadgraph.export.source import settings_of
 from cadgraph.export.usd import (
     authorable_path,
     check_source,
@@ -31,7 +33,8 @@ from cadgraph.export.usd import (
 )
 from cadgraph.export.usd_labels import add_structure, dispositions_of, parts_of_meshes
 from cadgraph.export.usd_specs import unused
-from cadgraph.load.usd_assets import open_layers
+from cadgraph.load.packing import Notes
+from cadgraph.load.usd_assets import open_stage
 from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.scene import Scene
@@ -64,6 +67,7 @@ def write_baked(
     Raises:
         ValueError: the graph names a mesh that the scene doesn't have, or the file doesn't end as one of USD.
         LoadError: the source can't be opened any more.
+        FormatError: the graph was made with settings that aren't known any more.
         OutputError: the file can't be written, or would overwrite the source.
     """
     source, target = Path(source_path), Path(path)
@@ -72,7 +76,7 @@ def write_baked(
     check_source(source, target)
     files = Files(target)
     if is_usd(source) and not is_split(scene):
-        layer, paths, anchors = _flattened(source), scene.paths, scene.anchors or scene.paths
+        layer, paths, anchors = _flattened(source, settings_of(graph)), scene.paths, scene.anchors or scene.paths
         files.move(layer)
     else:
         layer, paths = geometry_layer(scene), prim_paths(scene)
@@ -93,16 +97,15 @@ def write_baked(
     return written, (*notes, *_told(baked), *files.notes())
 
 
-def _flattened(source: Path) -> Any:
+def _flattened(source: Path, settings: LoadConfig) -> Any:
     """All that a source is composed of, in one layer."""
     with _quiet():
         try:
-            held = open_layers(source)
-            stage = Usd.Stage.Open(os.path.abspath(source).replace(os.sep, "/"), Usd.Stage.LoadAll)
+            # What lies outside the folder of the scene was told when it was loaded.
+            stage, _ = open_stage(Path(os.path.abspath(source).replace(os.sep, "/")), settings, Notes())
             layer = stage.Flatten(addSourceFileComment=False)
         except Tf.ErrorException as error:
             raise LoadError(f"{source}: can't be opened as USD ({reason_of(error)})") from None
-        del held
     if layer is None:
         raise OutputError(f"{source}: can't be written as one layer; leave --bake out")
     return layer

@@ -8,6 +8,7 @@ from functools import partial
 from pathlib import Path
 from typing import Literal
 
+from cadgraph._io.run_folder import coming_into
 from cadgraph.errors import LoadError
 from cadgraph.export.att import write_att
 from cadgraph.export.graphml import write_graphml
@@ -210,6 +211,12 @@ _FORMATS = (
         "each line as an isometric drawing, SVG",
         _write_isometrics,
     ),
+    Format(
+        "json",
+        "the whole graph as one JSON file in cadgraph's own format, however large",
+        lambda graph, path, _: Written((graph.save(path),)),
+        file="whole_graph.json",
+    ),
     Format("labels-csv", "labels by source path, for 'cadgraph build --labels'", _write_labels, file="labels.csv"),
     Format(
         "mjcf",
@@ -225,6 +232,11 @@ _FORMATS = (
         file="nodelink.json",
     ),
     Format("pcf", "each line as an Isogen piping component file", _write_pcf),
+    Format(
+        "shards",
+        "cadgraph's own format as for large plants, however small: an index, and shards that are read when asked for",
+        lambda graph, path, _: Written((graph.save(path, shard_above=0),)),
+    ),
     Format(
         "usd",
         "the labels as a USD layer over the source; with --bake the source and its labels as one stage",
@@ -270,7 +282,7 @@ def write_export(
     bake: bool = False,
     open_instances: bool = False,
 ) -> Written:
-    """Writes a graph in another format.
+    """Writes a graph in another format; several files come into their folder together.
 
     Args:
         graph: what to write.
@@ -290,7 +302,7 @@ def write_export(
             that needs none.
         LoadError: the source is missing, is another one than the graph was made from, or one of another format.
         MissingExtra: the format needs a package that isn't installed.
-        OutputError: a file can't be written.
+        OutputError: a file can't be written, or another process is at work in the folder.
     """
     form = next((each for each in _FORMATS if each.name == to), None)
     if form is None:
@@ -304,17 +316,26 @@ def write_export(
     if form.source == "no":
         if source is not None:
             raise ValueError(f"{form.name} is written from the graph alone; leave --source out")
-        return form.write(graph, _place(form, target, None), None)
+        return _written(form, graph, target, None)
     if form.source == "needed":
         origin = find_source(graph, source)
         _check_kind(form, origin, "a copy of")
-        return form.write(graph, _place(form, target, origin), origin)
+        return _written(form, graph, target, origin)
     there, missing = _source_if_there(form, graph, source)
-    written = form.write(graph, _place(form, target, there), there)
+    written = _written(form, graph, target, there)
     if there is not None:
         return written
     notes = tuple(Diagnostic(note.code, f"{note.message}: {missing}", note.meshes) for note in written.notes)
     return Written(written.files, notes)
+
+
+def _written(form: Format, graph: SceneGraph, path: Path, source: Path | None) -> Written:
+    """Writes a graph, all files or none."""
+    place = _place(form, path, source)
+    # A format that places its files below the folder belongs to that folder all the same.
+    folder = path.parent if place == path and form.file is not None else path
+    with coming_into(folder, graph.digest):
+        return form.write(graph, place, source)
 
 
 def _source_if_there(form: Format, graph: SceneGraph, given: str | Path | None) -> tuple[Path | None, str]:

@@ -59,7 +59,7 @@ def settings_of(graph: SceneGraph) -> LoadConfig:
         FormatError: with settings that aren't known any more.
     """
     try:
-        return restore_config(graph.document.config).load
+        return restore_config(graph.config).load
     except ValueError as error:
         raise FormatError(f"the graph's settings can't be used any more ({error}); build the graph anew") from error
 

@@ -18,6 +18,7 @@ import numpy as np
 from pxr import Gf, Sdf, Tf, Vt
 
 from cadgraph._io.atomic import replacing, write_atomically
+from cadgraph._io.staging import result_path
 from cadgraph.errors import LoadError, OutputError
 from cadgraph.export.usd_labels import (
     add_structure,
@@ -231,7 +232,7 @@ def _restate(layer: Any, below: Path, target: Path, scene: Scene) -> set[str]:
 
 def _open(source: Path) -> Any:
     try:
-        layer = Sdf.Layer.FindOrOpen(os.path.abspath(source).replace(os.sep, "/"))
+        layer = Sdf.Layer.FindOrOpen(os.path.abspath(result_path(source)).replace(os.sep, "/"))
     except Tf.ErrorException as error:
         raise LoadError(f"{source}: can't be opened as USD ({reason_of(error)})") from None
     if layer is None:

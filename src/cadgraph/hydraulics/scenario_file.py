@@ -172,7 +172,10 @@ class _Reading:
                 for tag, gauge in scenario.gauges.items()
             },
         }
-        supposed = complete(self.network, scenario.model_copy(update=blank))
+        try:
+            supposed = complete(self.network, scenario.model_copy(update=blank))
+        except ScenarioError as error:
+            raise ScenarioError(f"{self.where}: {error}") from None
         return scenario.model_copy(
             update={
                 "valves": {

@@ -21,6 +21,7 @@ from scipy import sparse
 from scipy.sparse import csgraph
 from scipy.sparse.linalg import splu
 
+from cadgraph.errors import ScenarioError
 from cadgraph.hydraulics.laws import CREEP, quadratic
 from cadgraph.hydraulics.network import Circuit, LinkKind
 
@@ -280,7 +281,12 @@ class Solver:
         if n == 0:
             return np.zeros(0), np.zeros(0)
         matrix = sparse.csc_matrix((data, self._indices, self._pointers), shape=(n, n))
-        factors = splu(matrix)
+        try:
+            factors = splu(matrix)
+        except RuntimeError:
+            raise ScenarioError(
+                "no flow can be found, as a value is so large or so small that numbers run out; give those of a plant"
+            ) from None
         heads = factors.solve(right)
         # Short wide pipes beside narrow ones lose digits; one refinement gets them back.
         heads += factors.solve(right - matrix @ heads)

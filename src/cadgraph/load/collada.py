@@ -23,10 +23,11 @@ import collada
 import numpy as np
 
 from cadgraph.errors import LoadError
+from cadgraph.load.budget import Budget
 from cadgraph.load.naming import Names, clipped, name_fact, path_step
 from cadgraph.load.packing import Notes, Piece, metres_z_up, pack
 from cadgraph.load.polygons import triangulate
-from cadgraph.load.triangles import MAX_TRIANGLES, clean_triangles, main_color
+from cadgraph.load.triangles import clean_triangles, main_color
 from cadgraph.model.facts import Fact
 from cadgraph.model.scene import Faces, Floats, Ints, Scene, Source
 
@@ -36,7 +37,6 @@ if TYPE_CHECKING:
 __all__ = ["read"]
 
 _MAX_DEPTH = 200  # of the tree of nodes; ours, far beyond any real one
-_MAX_NODES = 1_000_000  # with all instances of nodes; ours
 _MOST_CORNERS = 10_000  # of one face; ours: cutting ears takes the square of it
 _UP = {"X_UP": "X", "Y_UP": "Y", "Z_UP": "Z"}
 _ABRIDGED = ("invalid-points", "invalid-indices", "no-surface", "skinned-mesh")
@@ -70,7 +70,7 @@ def read(path: Path, config: LoadConfig) -> Scene:
     notes = Notes()
     document = _opened(path)
     unit, up = _units(document, notes)
-    reading = _Reading(path, notes)
+    reading = _Reading(Budget(path, config, path.stat().st_size), notes)
     try:
         reading.walk(document.scene.nodes if document.scene is not None else [])
     except _DAMAGE as error:
@@ -119,7 +119,7 @@ def _units(document: Any, notes: Notes) -> tuple[float, str]:
 class _Reading:
     """The walk down the tree."""
 
-    file: Path
+    budget: Budget
     notes: Notes
     pieces: list[Piece] = field(default_factory=list)
     facts: list[Fact] = field(default_factory=list)
@@ -144,11 +144,8 @@ class _Reading:
         while stack:
             node, path, above, depth = stack.pop()
             n += 1
-            if n > _MAX_NODES or self._triangles > MAX_TRIANGLES:
-                raise LoadError(
-                    f"{self.file}: more than {_MAX_NODES:,} nodes or {MAX_TRIANGLES:,} triangles with all instances; "
-                    "split the scene"
-                )
+            self.budget.check_meshes(n)
+            self.budget.check_placed(self._triangles)
             with np.errstate(over="ignore", invalid="ignore"):
                 matrix = np.asarray(node.matrix, np.float64).T @ above
             self.facts += name_fact(path, _name(node), "node name")

@@ -24,12 +24,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from cadgraph.errors import LoadError
+from cadgraph.load.budget import Budget
 from cadgraph.load.gltf_file import BROKEN, MESHOPT, MESHOPT_REMEDY, Gltf, open_gltf
-from cadgraph.load.gltf_mesh import GltfMesh, read_mesh, values_of
+from cadgraph.load.gltf_mesh import GltfMesh, promised_triangles, read_mesh, values_of
 from cadgraph.load.gltf_nodes import walk_nodes
 from cadgraph.load.naming import clipped, name_fact, path_step
 from cadgraph.load.packing import Notes, Piece, metres_z_up, pack
-from cadgraph.load.triangles import MAX_TRIANGLES, main_color
+from cadgraph.load.triangles import main_color
 from cadgraph.model.facts import Fact, FactKey
 from cadgraph.model.scene import Floats, Scene, Source
 
@@ -38,7 +39,6 @@ if TYPE_CHECKING:
 
 __all__ = ["node_matrix", "read"]
 
-_MAX_MESHES = 5_000_000  # ours; a mesh takes some 500 bytes here
 _COARSE = 0.001  # [m] a grid coarser than this moves flanges apart that touch; ours
 _INSTANCING = "EXT_mesh_gpu_instancing"
 _READ = {_INSTANCING, "KHR_draco_mesh_compression", "KHR_mesh_quantization", "KHR_node_visibility"}
@@ -89,7 +89,8 @@ def read(path: Path, config: LoadConfig) -> Scene:
     notes = Notes()
     _check_extensions(gltf, path, notes)
     gltf.load_buffers()
-    reading = _Reading(gltf, path, config.invisible, config.metadata != "off", notes)
+    budget = Budget(path, config, gltf.size)
+    reading = _Reading(gltf, budget, config.invisible, config.metadata != "off", notes)
     reading.walk()
     source = Source(meters_per_unit=1.0, up_axis="Y", format="gltf", metadata=_metadata(gltf))
     scene = pack(reading.pieces, source, metres_z_up(1.0, "Y"), notes, _ABRIDGED, reading.facts)
@@ -173,7 +174,7 @@ class _Reading:
     """The walk down the tree."""
 
     gltf: Gltf
-    file: Path
+    budget: Budget
     invisible: bool
     metadata: bool
     notes: Notes
@@ -227,6 +228,7 @@ class _Reading:
     def _place(self, node: Mapping[str, Any], path: str, matrix: Floats) -> None:
         number = node["mesh"]
         if number not in self._meshes:
+            self.budget.take_triangles(promised_triangles(self.gltf, number))
             mesh = read_mesh(self.gltf, number, path, self.notes)
             self._meshes[number] = mesh, main_color(mesh.points, mesh.faces, mesh.palette, mesh.color_of_face)
         mesh, color = self._meshes[number]
@@ -236,8 +238,11 @@ class _Reading:
         if node.get("skin") is not None:
             self.notes.add("skinned-mesh", "taken as it is stored and its node is placed, without its joints", path)
         instancing = node.get("extensions", {}).get(_INSTANCING)
+        # Each instance takes a matrix of 128 bytes before it takes a piece.
+        self.budget.check_meshes(len(self.pieces) + (1 if instancing is None else _promised(self.gltf, instancing)))
         placed = _instances(self.gltf, instancing) @ matrix if instancing is not None else matrix[None]
-        self._budget(len(placed), len(mesh.faces))
+        self._triangles += len(placed) * len(mesh.faces)
+        self.budget.check_placed(self._triangles)
         for i, where in enumerate(placed, start=1):
             own = path if instancing is None else f"{path}/instance_{i}"
             # The same array for every instance: what is shared can be told from it.
@@ -246,19 +251,17 @@ class _Reading:
                 self.facts += [Fact(own, "layer", clipped(name), "material") for name in mesh.materials]
         self._note_grid(mesh.grid, placed, path)
 
-    def _budget(self, n: int, triangles: int) -> None:
-        self._triangles += n * triangles
-        if len(self.pieces) + n > _MAX_MESHES or self._triangles > MAX_TRIANGLES:
-            raise LoadError(
-                f"{self.file}: more than {_MAX_MESHES:,} meshes or {MAX_TRIANGLES:,} triangles with all instances; "
-                "split the scene"
-            )
-
     def _note_grid(self, grid: float, placed: Floats, path: str) -> None:
         step = grid * float(np.linalg.norm(placed[:, :3, :3], axis=2).max()) if grid and len(placed) else 0.0
         if step > _COARSE:
             self._coarse.append(path)
             self._coarsest = max(self._coarsest, step)
+
+
+def _promised(gltf: Gltf, extension: Mapping[str, Any]) -> int:
+    """How many instances a node says that it has."""
+    numbers = extension["attributes"].values()
+    return max((int(gltf.item("accessors", number)["count"]) for number in numbers), default=0)
 
 
 def _instances(gltf: Gltf, extension: Mapping[str, Any]) -> Floats:

@@ -45,12 +45,14 @@ class Gltf:
         tree: its JSON.
         path: of the file, for messages and for buffers beside it.
         own: its binary chunk, if any.
+        size: of the file [bytes].
     """
 
-    def __init__(self, tree: Mapping[str, Any], path: Path, own: memoryview | None) -> None:
+    def __init__(self, tree: Mapping[str, Any], path: Path, own: memoryview | None, size: int = 0) -> None:
         self.tree = tree
         self._path = path
         self._own = own
+        self._size = size
         self._sparse: dict[int, npt.NDArray[Any]] = {}
 
     def rows(self, name: str) -> Sequence[Any]:
@@ -102,6 +104,13 @@ class Gltf:
                 f"{self._path}: buffer {number} has {len(data)} of {length} bytes, cut short; copy or export it again"
             )
         return data
+
+    @property
+    def size(self) -> int:
+        """Bytes of the file with all its buffers; those that it holds itself count once."""
+        return self._size + sum(
+            len(buffer) for buffer in self._buffers if buffer is not None and buffer is not self._own
+        )
 
     def view(self, number: Any) -> memoryview:
         """The bytes of a buffer view [3.6.1].
@@ -177,7 +186,7 @@ def open_gltf(path: Path) -> Gltf:
             raise LoadError(f"{path}: not readable as binary glTF ({error}); copy or export it again") from None
     else:
         try:
-            gltf = Gltf(_tree(data[:]), path, None)
+            gltf = Gltf(_tree(data[:]), path, None, len(data))
         except BROKEN as error:
             raise LoadError(f"{path}: not readable as glTF ({error}); copy or export it again") from None
     asset = gltf.tree.get("asset")
@@ -206,7 +215,7 @@ def parse_glb(data: Bytes, path: Path = Path("scene.glb")) -> Gltf:
             raise ValueError(f"a part of {length} bytes at byte {at} is cut short")
         found.setdefault(kind, whole[at + 8 : at + 8 + length])
         at += 8 + length
-    return Gltf(_tree(bytes(found[_JSON])), path, found.get(_BIN))
+    return Gltf(_tree(bytes(found[_JSON])), path, found.get(_BIN), len(data))
 
 
 def _tree(text: bytes) -> Mapping[str, Any]:

@@ -6,6 +6,7 @@ Numbers in brackets are sections of the Khronos glTF 2.0 specification.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any
 
@@ -18,7 +19,7 @@ from cadgraph.load.packing import Notes
 from cadgraph.load.triangles import MAX_TRIANGLES, clean_triangles
 from cadgraph.model.scene import Faces, Floats, Ints
 
-__all__ = ["GltfMesh", "read_mesh", "values_of"]
+__all__ = ["GltfMesh", "promised_triangles", "read_mesh", "values_of"]
 
 _TRIANGLES, _STRIP, _FAN = 4, 5, 6  # modes [3.7.2.1]
 _MODE_NAMES = ("points", "lines", "line loops", "line strips")
@@ -55,6 +56,26 @@ class _Primitive:
     color: Floats
     grid: float
     source: int  # the number of its points' accessor; a negative one of its own where they come from elsewhere
+
+
+def promised_triangles(gltf: Gltf, number: int) -> int:
+    """How many triangles a mesh says that it has, as far as it can be read; nothing of them is read.
+
+    Args:
+        gltf: the file.
+        number: of the mesh in it.
+
+    Raises:
+        IndexError, KeyError, TypeError: there is no such mesh.
+    """
+    primitives = gltf.item("meshes", number).get("primitives", [])
+    n = 0
+    for row in primitives if isinstance(primitives, list) else []:
+        with suppress(*BROKEN):
+            points = row["attributes"]["POSITION"]
+            corners = int(gltf.item("accessors", row.get("indices", points))["count"])
+            n += corners // 3 if row.get("mode", _TRIANGLES) == _TRIANGLES else corners
+    return n
 
 
 def read_mesh(gltf: Gltf, number: int, path: str, notes: Notes) -> GltfMesh:

@@ -31,8 +31,8 @@ __all__ = ["read"]
 _HEADER = 1 << 16  # bytes in which a header says how many faces there are; ours
 # What the library ends in on damaged files; it has no errors of its own.
 _DAMAGE = (
-    *(ArithmeticError, AssertionError, AttributeError, EOFError, LookupError, MemoryError, OSError, RuntimeError),
-    *(StopIteration, SyntaxError, TypeError, ValueError, struct.error, DeprecationWarning),
+    *(ArithmeticError, AssertionError, AttributeError, EOFError, LookupError, MemoryError, NameError, OSError),
+    *(RuntimeError, StopIteration, SyntaxError, TypeError, ValueError, struct.error, DeprecationWarning),
 )
 
 

@@ -21,12 +21,14 @@ import numpy.typing as npt
 
 from cadgraph.errors import LoadError
 from cadgraph.load.bodies import split_bodies
+from cadgraph.load.budget import Budget
 from cadgraph.load.gltf import node_matrix
 from cadgraph.load.gltf_file import BROKEN, Gltf, parse_glb
 from cadgraph.load.gltf_mesh import GltfMesh, read_mesh
 from cadgraph.load.gltf_nodes import root_nodes
 from cadgraph.load.naming import Names, path_step
 from cadgraph.load.packing import Notes, Piece, pack
+from cadgraph.load.step_census import occurrences
 from cadgraph.load.step_damage import Counts, damage_of, hear, named_in
 from cadgraph.load.triangles import main_color
 from cadgraph.model.scene import Faces, Floats, Scene, Source
@@ -67,6 +69,9 @@ def read(path: Path, config: LoadConfig) -> Scene:
     """
     data = path.read_bytes()
     form = "iges" if path.suffix.lower() in (".igs", ".iges") else "step"
+    budget = Budget(path, config, len(data))
+    if form == "step":
+        budget.check_meshes(occurrences(data))
     # The library works in millimetres whatever the file's unit, and so does its tolerance.
     # A primitive for each face, so that faces can be counted; ``read_mesh`` joins them again.
     with hear() as complaints:

@@ -25,10 +25,12 @@ from xml.etree import ElementTree
 import numpy as np
 import numpy.typing as npt
 
+from cadgraph._io.limits import most_unpacked, size_text
 from cadgraph.errors import LoadError
+from cadgraph.load.budget import Budget
 from cadgraph.load.naming import Names, clipped, name_fact, path_step
 from cadgraph.load.packing import Notes, Piece, metres_z_up, pack
-from cadgraph.load.triangles import MAX_TRIANGLES, clean_triangles, linear, main_color
+from cadgraph.load.triangles import clean_triangles, linear, main_color
 from cadgraph.model.facts import Fact
 from cadgraph.model.scene import Faces, Floats, Ints, Scene, Source
 
@@ -41,7 +43,6 @@ _UNITS = {
     "micron": 1e-6, "millimeter": 0.001, "centimeter": 0.01, "inch": 0.0254, "foot": 0.3048, "meter": 1.0
 }  # fmt: skip
 _MAX_DEPTH = 200  # of components in components; ours
-_MAX_PLACED = 1_000_000  # objects with all components; ours
 _MOST_BYTES = 1 << 30  # of the XML unpacked; a triangle takes about 40
 _MOST_PARTS = 10_000  # files in the package; ours
 _SUPPORTS = ("support", "solidsupport")
@@ -80,12 +81,14 @@ class _Package:
         items: of the build: object and placement.
         colors: by part and id of a group: name and sRGB of each.
         unit: of the root part.
+        size: of all parts unpacked [bytes].
     """
 
     objects: dict[Key, _Object] = field(default_factory=dict)
     items: list[tuple[Key, Floats]] = field(default_factory=list)
     colors: dict[Key, list[tuple[str, Floats]]] = field(default_factory=dict)
     unit: str = "millimeter"
+    size: int = 0
 
 
 def read(path: Path, config: LoadConfig) -> Scene:
@@ -111,7 +114,7 @@ def read(path: Path, config: LoadConfig) -> Scene:
     if unit is None:
         notes.add("invalid-units", f"{package.unit[:40]!r} is no unit of 3MF; taken as millimetres")
         unit = 0.001
-    reading = _Reading(path, package, notes)
+    reading = _Reading(Budget(path, config, package.size), package, notes)
     reading.walk()
     kept = reading.facts if config.metadata != "off" else []
     scene = pack(
@@ -127,13 +130,13 @@ def read(path: Path, config: LoadConfig) -> Scene:
 def _unpack(path: Path, package: _Package, notes: Notes) -> None:
     with zipfile.ZipFile(path) as archive:
         parts = [entry for entry in archive.infolist() if entry.filename.lower().endswith(".model")]
-        if len(parts) > _MOST_PARTS or sum(entry.file_size for entry in parts) > _MOST_BYTES:
-            raise LoadError(
-                f"{path}: unpacks to more than {_MOST_PARTS:,} parts or {_MOST_BYTES >> 20:,} MB; split the model"
-            )
+        most = most_unpacked(path.stat().st_size, _MOST_BYTES)
+        if len(parts) > _MOST_PARTS or sum(entry.file_size for entry in parts) > most:
+            raise LoadError(f"{path}: unpacks to more than {_MOST_PARTS:,} parts or {size_text(most)}; split the model")
         root = next((e for e in parts if e.filename.lower().endswith("3d/3dmodel.model")), parts[0] if parts else None)
         if root is None:
             raise ValueError("it holds no part that ends in .model")
+        package.size = sum(entry.file_size for entry in parts)
         for entry in parts:
             with archive.open(entry) as file:
                 _read_part(file, _absolute(entry.filename), entry is root, package, notes)
@@ -227,7 +230,7 @@ def _srgb(text: str | None) -> Floats:
 class _Reading:
     """The walk from the build down the components."""
 
-    file: Path
+    budget: Budget
     package: _Package
     notes: Notes
     pieces: list[Piece] = field(default_factory=list)
@@ -244,11 +247,8 @@ class _Reading:
         while stack:
             key, path, matrix, depth = stack.pop()
             n += 1
-            if n > _MAX_PLACED or self._triangles > MAX_TRIANGLES:
-                raise LoadError(
-                    f"{self.file}: more than {_MAX_PLACED:,} objects or {MAX_TRIANGLES:,} triangles with all "
-                    "components; split the model"
-                )
+            self.budget.check_meshes(n)
+            self.budget.check_placed(self._triangles)
             built = self.package.objects.get(key)
             if built is None:
                 self.notes.add("missing-object", "left out: the package doesn't hold the object that it places", path)

@@ -5,6 +5,7 @@ What this reader notes in ``Scene.diagnostics``; meshes with a code of the first
 - left out: ``hidden``, ``other-purpose``, ``unsupported-geometry``, ``empty-mesh`` (no points or no usable face),
   ``degenerate-mesh`` (no area), ``invalid-transform``, ``invalid-size`` (of a built-in shape), ``too-far``,
   ``unreadable``;
+- not opened: ``outside-asset`` (beside or above the folder of the scene, and not named in ``load.asset_roots``);
 - not found: ``missing-reference``, ``missing-payload``, ``missing-layer``, ``missing-prototype``;
 - repaired: ``invalid-units``, ``invalid-up-axis``, ``invalid-points``, ``invalid-indices``, ``invalid-face-counts``,
   ``projective-transform``, ``invalid-instancer``, ``twisted-faces``, ``overlapping-subsets``;
@@ -24,12 +25,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
-from pxr import Tf, Usd, UsdGeom, UsdUtils
+from pxr import Tf, UsdGeom, UsdUtils
 
 from cadgraph._io.text import printable
 from cadgraph.errors import LoadError
+from cadgraph.load.budget import Budget
 from cadgraph.load.packing import Z_UP_FROM, Notes, Piece, metres_z_up, pack
-from cadgraph.load.usd_assets import is_there, open_layers
+from cadgraph.load.usd_assets import is_there, open_stage
 from cadgraph.load.usd_color import Materials, mean_display_color
 from cadgraph.load.usd_mesh import CutMesh, RawMesh, cut_meshes
 from cadgraph.load.usd_units import note_mixed_units
@@ -75,13 +77,11 @@ def read(path: Path, config: LoadConfig) -> Scene:
     delegate = UsdUtils.CoalescingDiagnosticDelegate()
     try:
         try:
-            layers = open_layers(path)
-            stage = Usd.Stage.Open(str(path), Usd.Stage.LoadAll)
-            del layers
+            stage, budget = open_stage(path, config, notes)
         except Tf.ErrorException as error:
             reason = _reason(error, path)
             raise LoadError(f"{path}: not readable as USD ({reason}); it is damaged; copy or export it again") from None
-        scene = _scene(stage, config, notes, lambda: _take_warnings(delegate, path, notes))
+        scene = _scene(stage, config, notes, budget, lambda: _take_warnings(delegate, path, notes))
     finally:
         delegate.TakeUncoalescedDiagnostics()
     if not scene.n_meshes:
@@ -89,10 +89,10 @@ def read(path: Path, config: LoadConfig) -> Scene:
     return scene
 
 
-def _scene(stage: Any, config: LoadConfig, notes: Notes, take_warnings: Any) -> Scene:
+def _scene(stage: Any, config: LoadConfig, notes: Notes, budget: Budget, take_warnings: Any) -> Scene:
     source, world_from_source = _units(stage, notes)
     note_mixed_units(stage, notes)
-    walk = Walk(stage, config.purposes, config.invisible, config.time, config.sides, notes)
+    walk = Walk(stage, config.purposes, config.invisible, config.time, config.sides, notes, budget)
     placements = []
     for placement in walk.placements():
         if placement.skipped:
@@ -103,6 +103,8 @@ def _scene(stage: Any, config: LoadConfig, notes: Notes, take_warnings: Any) -> 
     meshes = dict(
         zip(keys, zip(walk.geometries.values(), cut_meshes(list(walk.geometries.values())), strict=True), strict=True)
     )
+    of_key = {key: len(cut.corners) for key, (_, cut) in meshes.items()}
+    budget.check_placed(sum(of_key[str(placement.geometry)] for placement in placements))
     materials = Materials(stage) if walk.has_bindings else None
     pieces = list(_pieces(placements, meshes, materials, config.split_subsets, notes))
     take_warnings()
@@ -271,6 +273,9 @@ def _take_warnings(delegate: Any, path: Path, notes: Notes) -> None:
     others: list[str] = []
     for said in delegate.TakeUncoalescedDiagnostics():
         said_text = message_of(partial(getattr, said, "commentary"))
+        if " was muted for " in said_text:
+            # What was left out on purpose is noted already.
+            continue
         text = re.sub(r"@([^@]*)@", lambda asset: f"@{_relative(asset[1], folder)}@", said_text)
         missing = _MISSING_ASSET.search(text) or _MISSING_TARGET.search(text)
         layer = _MISSING_LAYER.search(text)
@@ -331,6 +336,6 @@ _FINDINGS = {
 
 def _what_was_found(notes: Notes) -> str:
     found = [text.format(notes.count(code)) for code, text in _FINDINGS.items() if notes.count(code)]
-    for code in ("missing-layer", "missing-reference", "missing-payload"):
+    for code in ("outside-asset", "missing-layer", "missing-reference", "missing-payload"):
         found += notes.messages(code)[:2]
     return ": " + "; ".join(found) if found else "; export it again with its geometry"

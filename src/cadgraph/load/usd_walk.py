@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 from pxr import Tf, Usd, UsdGeom, UsdShade
 
+from cadgraph.load.budget import Budget
 from cadgraph.load.packing import Notes
 from cadgraph.load.usd_color import usable_color
 from cadgraph.load.usd_mesh import RawMesh
@@ -25,6 +26,7 @@ Bindings = tuple[Any, ...]
 _VISIBLE_SCENE = Usd.TraverseInstanceProxies(Usd.PrimDefaultPredicate)
 # Prototypes of a point instancer are often kept under an over or a class, where no prim counts as defined.
 _PROTOTYPE = Usd.TraverseInstanceProxies(Usd.PrimIsActive & Usd.PrimIsLoaded & Usd.PrimHasDefiningSpecifier)
+_WATCHED = 1000  # prims from one look at the memory to the next; they take a few megabytes
 _IDENTITY: Floats = np.eye(4)
 _NO_INTS: Ints = np.zeros(0, np.int64)
 
@@ -78,13 +80,21 @@ class Walk:
         time: time code, or None for the default time, else the first sample.
         sides: of round shapes.
         notes: gets what was skipped or repaired.
+        budget: how much its meshes may be.
 
     ``geometries`` holds each mesh of the file once, however often it is placed; ``has_bindings`` says whether any
     prim binds a material.
     """
 
     def __init__(
-        self, stage: Any, purposes: Sequence[str], invisible: bool, time: float | None, sides: int, notes: Notes
+        self,
+        stage: Any,
+        purposes: Sequence[str],
+        invisible: bool,
+        time: float | None,
+        sides: int,
+        notes: Notes,
+        budget: Budget,
     ) -> None:
         self._stage = stage
         self._purposes = frozenset(purposes)
@@ -92,6 +102,8 @@ class Walk:
         self._time = None if time is None else Usd.TimeCode(time)
         self._sides = sides
         self._notes = notes
+        self._budget = budget
+        self._visited = 0
         self._sampled = _is_sampled(stage)
         self._transforms = UsdGeom.XformCache(self._time or Usd.TimeCode.Default())
         self._kinds: dict[str, str] = {}
@@ -101,8 +113,18 @@ class Walk:
         self.has_bindings = False
 
     def placements(self) -> list[Placement]:
-        """All meshes of the stage."""
-        return self._below(self._stage.GetPseudoRoot(), _Place(), _VISIBLE_SCENE, 0)
+        """All meshes of the stage.
+
+        Raises:
+            LoadError: they are more than the settings allow.
+        """
+        try:
+            return self._below(self._stage.GetPseudoRoot(), _Place(), _VISIBLE_SCENE, 0)
+        except MemoryError:
+            self._budget.refuse_arrays()
+            raise
+        finally:
+            self._budget.unwatch()
 
     def _below(self, root: Any, place: _Place, predicate: Any, cut: int) -> list[Placement]:
         """All meshes at or below a prim; ``cut`` characters are taken off the front of their paths."""
@@ -110,6 +132,11 @@ class Walk:
         stack = [(root, place)]
         while stack:
             prim, above = stack.pop()
+            self._visited += 1
+            if self._visited % _WATCHED == 1:
+                self._budget.watch()
+            if self._visited > self._budget.most_prims:
+                self._budget.check_prims(self._visited)
             own_path = str(prim.GetPath())
             path = own_path[cut:]
             try:
@@ -118,9 +145,12 @@ class Walk:
                 kind = self._kind(prim)
                 if kind == "instancer":
                     found.extend(self._instances(prim, here, path))
+                    self._budget.check_meshes(len(found))
                     continue
                 children = prim.GetFilteredChildren(predicate)
                 if kind:
+                    if len(found) >= self._budget.most_meshes:
+                        self._budget.check_meshes(len(found) + 1)
                     skipped = self._reason_to_skip(kind, here, prim)
                     key = None if skipped else self._geometry(prim, kind, names, children, own_path)
                     found.append(
@@ -228,11 +258,14 @@ class Walk:
         return None
 
     def _mesh(self, prim: Any, names: frozenset[str], children: Any) -> RawMesh:
-        points = _rows(self._value(prim, "points"))
+        points, indices = _rows(self._value(prim, "points")), _ints(self._value(prim, "faceVertexIndices"))
+        counts = _ints(self._value(prim, "faceVertexCounts"))
+        # A polygon of n corners becomes n - 2 triangles; what is damaged takes memory, too.
+        self._budget.take_triangles(max(len(indices) - 2 * len(counts), len(indices) // 3, len(counts) // 3))
         return RawMesh(
             points=np.zeros((0, 3)) if points is None else points,
-            counts=_ints(self._value(prim, "faceVertexCounts")),
-            indices=_ints(self._value(prim, "faceVertexIndices")),
+            counts=counts,
+            indices=indices,
             left_handed=self._choice(prim, "orientation", names) == "leftHanded",
             holes=_ints(self._choice(prim, "holeIndices", names)),
             subdivided=self._choice(prim, "subdivisionScheme", names) != "none",
@@ -289,6 +322,7 @@ class Walk:
     def _items(self, prim: Any, place: _Place, path: str) -> list[Placement]:
         instancer = UsdGeom.PointInstancer(prim)
         prototype_of_item = _ints(self._read(instancer.GetProtoIndicesAttr()))
+        self._budget.check_meshes(len(prototype_of_item))
         matrices = self._item_matrices(instancer, len(prototype_of_item))
         if len(matrices) < len(prototype_of_item):
             message = "items without a position, or with a wrong number of orientations or scales, were repaired"
@@ -300,6 +334,14 @@ class Walk:
         ]
         if len(prototype_of_item) and not (0 <= prototype_of_item.min() <= prototype_of_item.max() < len(prototypes)):
             self._notes.add("invalid-instancer", "items that name a prototype which doesn't exist were dropped", path)
+        named, items = np.unique(prototype_of_item, return_counts=True)
+        self._budget.check_meshes(
+            sum(
+                len(prototypes[which]) * n
+                for which, n in zip(named.tolist(), items.tolist(), strict=True)
+                if 0 <= which < len(prototypes)
+            )
+        )
         hidden = self._hidden_items(instancer, len(prototype_of_item))
         item_colors = None
         if isinstance(place.color, tuple) and len(place.color[0]) == len(prototype_of_item):
@@ -423,5 +465,7 @@ def message_of(say: Callable[[], str]) -> str:
 
 def _first_line(error: Exception) -> str:
     text = message_of(lambda: str(error))
+    if "exception thrown unpacking a value" in text:
+        return "a value can't be unpacked: it is damaged, or takes more memory than any real one"
     quoted = text.split(": '", 1)
     return (quoted[1] if len(quoted) == 2 else text)[:200].rstrip("'")

@@ -19,6 +19,8 @@ from cadgraph._io.atomic import write_atomically
 from cadgraph._io.folder_lock import folder_identity
 from cadgraph._io.json_rows import json_rows
 from cadgraph._io.limits import read_bytes_within, size_text
+from cadgraph._io.results import settle_if_free
+from cadgraph._io.staging import result_path
 from cadgraph._io.text import printable
 from cadgraph.errors import LabelError, OutputError
 from cadgraph.model.anchors import Fingerprint
@@ -280,6 +282,7 @@ class CorrectionsFile:
 
     def read(self, vocabulary: Vocabulary | None = None) -> History:
         """Reads it; see ``read_history``."""
+        settle_if_free(self.file.parent)
         content = self._content()
         history = History() if content is None else self._parsed(content, vocabulary)
         # Only now: what can't be read must not be written over.
@@ -349,12 +352,14 @@ class CorrectionsFile:
         if self.file.is_fifo():
             # Reading would wait for somebody who writes to it.
             raise LabelError(f"{self.file}: a pipe; {remedy}")
-        try:
-            return read_bytes_within(self.file, limits.CORRECTIONS, LabelError, remedy)
-        except LabelError as error:
-            if isinstance(error.__cause__, FileNotFoundError):
-                return None
-            raise
+        # Twice, as somebody may move the file to its place at this moment.
+        for _ in range(2):
+            try:
+                return read_bytes_within(result_path(self.file), limits.CORRECTIONS, LabelError, remedy)
+            except LabelError as error:
+                if not isinstance(error.__cause__, FileNotFoundError):
+                    raise
+        return None
 
 
 def _digest(content: bytes | None) -> str:

@@ -5,24 +5,27 @@ Nodes and edges load as they are with ``networkx.node_link_graph(data, edges="ed
 
 from __future__ import annotations
 
+import hashlib
 import json
 import reprlib
-from collections import Counter, deque
+from collections import deque
 from collections.abc import Mapping
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast, get_args, overload
 
-from pydantic import ValidationError
-
+from cadgraph._io.atomic import write_atomically
+from cadgraph._io.depth import MOST_LEVELS, is_too_deep
 from cadgraph._io.json_rows import write_json_rows
-from cadgraph._io.limits import GRAPH, read_text_within
+from cadgraph._io.limits import GRAPH, decoded
+from cadgraph._io.manifest import GRAPH_FILE, read_checked
+from cadgraph._io.results import settle_if_free
+from cadgraph._io.run_folder import one_of_results
 from cadgraph.errors import FormatError, UnknownNode
+from cadgraph.model.content import Content, ShardedContent, WholeContent, validated
 from cadgraph.model.diagnostic import Diagnostic
-from cadgraph.model.names import Names
 from cadgraph.model.pipework import Direction, Pipework, check_direction
 from cadgraph.model.records import (
-    Adjacent,
     AnyEdge,
     AnyNode,
     Cluster,
@@ -40,7 +43,7 @@ from cadgraph.model.records import (
     Terminal,
     Unit,
 )
-from cadgraph.model.validate import check_document, check_names, what_is_wrong
+from cadgraph.model.shards import ABOVE, FOLDER, cut, is_cut, sweep_shards
 
 if TYPE_CHECKING:
     import networkx
@@ -59,35 +62,52 @@ class SceneGraph:
     Args:
         document: the content, as it stands on disk.
 
+    Attributes:
+        digest: SHA-256 of the file that it was read from; None where it was made in memory.
+
     Raises:
         FormatError: an id is used twice, an edge ends nowhere, or there isn't exactly one site.
     """
 
-    def __init__(self, document: GraphDocument) -> None:
-        self.document = document
-        self.nodes: dict[str, Node] = {node.id: node for node in document.nodes}
-        check_names(document)
+    def __init__(self, document: GraphDocument | Content) -> None:
+        self._content = document if isinstance(document, Content) else WholeContent(document)
+        self.digest: str | None = None
+        self.nodes: Mapping[str, Node] = self._content.nodes
 
     def __repr__(self) -> str:
-        layers = Counter(node.layer for node in self.document.nodes)
-        kinds = Counter(edge.kind for edge in self.document.edges)
-        always = {"part": layers["part"], "cluster": layers["cluster"], "unit": layers["unit"]}
-        others = {"mesh": self.source.n_meshes, "contact": kinds["adjacent"], "connection": kinds["connected"]}
-        others |= {"junction": layers["junction"], "end": layers["terminal"], "system": layers["system"]}
+        layer, kind = self._content.count_layer, self._content.count_kind
+        always = {"part": layer("part"), "cluster": layer("cluster"), "unit": layer("unit")}
+        others = {"mesh": self.source.n_meshes, "contact": kind("adjacent"), "connection": kind("connected")}
+        others |= {"junction": layer("junction"), "end": layer("terminal"), "system": layer("system")}
         words = [_count(n, noun) for noun, n in (always | {name: n for name, n in others.items() if n}).items()]
         return f"<SceneGraph of {self.source.path!r}: {', '.join(words)}>"
 
     # What is in the graph
 
     @property
+    def document(self) -> GraphDocument:
+        """The content as one document; of a graph in shards all of them are read for it."""
+        return self._content.document
+
+    @property
     def source(self) -> SourceRecord:
         """Where the scene came from."""
-        return self.document.source
+        return self._content.head.source
+
+    @property
+    def vocabulary(self) -> dict[str, Any]:
+        """The tree of labels that it was made with."""
+        return self._content.head.vocabulary
+
+    @property
+    def config(self) -> dict[str, Any]:
+        """The settings that it was made with."""
+        return self._content.head.config
 
     @property
     def diagnostics(self) -> tuple[Diagnostic, ...]:
         """Everything skipped, repaired, guessed or left unlabelled."""
-        return self.document.diagnostics
+        return self._content.diagnostics
 
     @property
     def site(self) -> Site:
@@ -96,11 +116,25 @@ class SceneGraph:
 
     def of_layer(self, layer: type[AnyNode]) -> list[AnyNode]:
         """All nodes of a class (``Part``, ``Unit``...), in the order of the file."""
-        return [node for node in self.document.nodes if isinstance(node, layer)]
+        return self._content.of_layer(layer)
 
     def of_kind(self, kind: type[AnyEdge]) -> list[AnyEdge]:
         """All edges of a class (``Adjacent``, ``Related``...), in the order of the file."""
-        return [edge for edge in self.document.edges if isinstance(edge, kind)]
+        return self._content.of_kind(kind)
+
+    def count(self, what: str) -> int:
+        """How many nodes of a layer (``"part"``), or edges of a kind (``"adjacent"``), there are; none is read."""
+        return self._content.count_layer(what) + self._content.count_kind(what)
+
+    @property
+    def label_counts(self) -> Mapping[tuple[str, str | None], int]:
+        """How many parts have which group and name."""
+        return self._content.labels
+
+    @property
+    def places(self) -> tuple[Node, ...]:
+        """At least all units, junctions and terminals, in the order of the file; of a graph in shards no part."""
+        return self._content.places
 
     def clusters(self, kind: str | None = None) -> list[Cluster]:
         """All connected structures, or those of one kind (``"pipe system"``)."""
@@ -131,7 +165,7 @@ class SceneGraph:
         Raises:
             ValueError: no unit is of that type and the graph's vocabulary has none such.
         """
-        if unit_type is not None and self.document.vocabulary and unit_type not in self._unit_types():
+        if unit_type is not None and self.vocabulary and unit_type not in self._unit_types():
             known = ", ".join(sorted(self._unit_types()))
             raise ValueError(f"no type of units is called {unit_type!r}; there are {known or 'none'}")
         return [unit for unit in self.of_layer(Unit) if unit_type is None or unit.unit_type == unit_type]
@@ -169,7 +203,7 @@ class SceneGraph:
 
     def part_with(self, mesh: str) -> Part | None:
         """The part that holds the mesh of exactly this source path; None where no part does."""
-        return self._names.part_with(mesh)
+        return self._content.part_with(mesh)
 
     def unit(self, which: str) -> Unit:
         """The unit with this tag or id.
@@ -192,7 +226,7 @@ class SceneGraph:
         Raises:
             UnknownNode: there is none, which is a ``KeyError``; the message names the nearest ones.
         """
-        return self._names.find(which, layers or get_args(Node))
+        return self._content.find(which, layers or get_args(Node))
 
     def unit_of(self, part: Part | str) -> Unit | None:
         """The unit that a part belongs to, if any.
@@ -200,7 +234,7 @@ class SceneGraph:
         Raises:
             KeyError: the part is not in the graph.
         """
-        node = self.nodes.get(self._unit_of_part.get(self._resolve(part).id, ""))
+        node = self.nodes.get(self._content.unit_of(self._resolve(part).id) or "")
         return node if isinstance(node, Unit) else None
 
     def cluster_of(self, node: Part | Unit | str) -> Cluster | None:
@@ -211,7 +245,7 @@ class SceneGraph:
         """
         here = self._resolve(node)
         members = here.parts if isinstance(here, Unit | Junction | Terminal) else (here.id,)
-        found = (self._cluster_of_part.get(part) for part in members)
+        found = (self._content.cluster_of(part) for part in members)
         cluster = self.nodes.get(next((name for name in found if name is not None), ""))
         return cluster if isinstance(cluster, Cluster) else None
 
@@ -240,7 +274,7 @@ class SceneGraph:
         here = self._resolve(node)
         _check_way(here, direction)
         if isinstance(here, Part):
-            found = [self.nodes[i] for i in sorted(self._touching[here.id], key=self._rank.__getitem__)]
+            found = [self.nodes[i] for i in self._content.touching(here.id)]
             return [other for other in found if isinstance(other, Part)]
         if not isinstance(here, Unit | Junction | Terminal):
             raise ValueError(f"parts and units have neighbours, but {here.id!r} is a {here.layer}")
@@ -317,7 +351,7 @@ class SceneGraph:
         Raises:
             KeyError: it is not in the graph.
         """
-        found = [joint for joint in self.document.joints if made is None or joint.made == made]
+        found = [joint for joint in self._content.joints if made is None or joint.made == made]
         if node is None:
             return found
         here = self._resolve(node)
@@ -354,30 +388,39 @@ class SceneGraph:
             raise FormatError(
                 f"{where}: format version {data.get('version')!r}, but this cadgraph reads version {VERSION}; update it"
             )
-        try:
-            document = GraphDocument.model_validate(data)
-            check_document(document)
-            return cls(document)
-        except ValidationError as error:
-            raise FormatError(f"{where}: {what_is_wrong(error, data)}; build the graph anew") from None
-        except FormatError as error:
-            raise FormatError(f"{where}: {error}; build the graph anew") from None
+        if is_too_deep(data):
+            raise FormatError(f"{where}: holds values in more than {MOST_LEVELS} levels; build the graph anew")
+        return cls(validated(data, where))
 
-    def save(self, path: str | Path) -> Path:
+    def save(self, path: str | Path, shard_above: int | None = None) -> Path:
         """Writes ``graph.json``, whole or not at all; the same graph gives the same bytes.
 
         Args:
-            path: the file, or a folder that gets ``graph.json``.
+            path: the file, or a folder that gets ``graph.json``. Into a folder of results it goes with their
+                manifest, so that readers take it for what belongs there.
+            shard_above: into a folder, kinds of nodes and edges of more rows than that go into shards beside it; by
+                default the setting ``graph.shard_above`` that it was made with. A file is always whole.
 
         Returns:
             The file.
 
         Raises:
-            OutputError: it can't be written.
+            OutputError: it can't be written, or another process is at work in the folder of results.
         """
         target = Path(path)
-        target = target / "graph.json" if target.suffix != ".json" else target
-        write_json_rows(target, self.to_json(), rows=("nodes", "edges", "joints", "stated", "diagnostics"))
+        whole = target.suffix == ".json"
+        target = target if whole else target / GRAPH_FILE
+        content = self.to_json()
+        above = _shard_above(self.config) if shard_above is None else shard_above
+        parted = None if whole else cut(content, above)
+        with one_of_results(target):
+            if not whole:
+                sweep_shards(target)
+            if parted is not None:
+                content, shards = parted
+                for name, packed in shards:
+                    write_atomically(target.parent / FOLDER / name, packed)
+            write_json_rows(target, content, rows=("nodes", "edges", "joints", "stated", "diagnostics"))
         return target
 
     @classmethod
@@ -385,34 +428,33 @@ class SceneGraph:
         """Reads ``graph.json``, or the folder that holds it.
 
         Raises:
-            FormatError: it is missing, no JSON, or does not follow the format.
+            FormatError: it is missing, no JSON, or does not follow the format; or it is another one than the manifest
+                of its folder names.
         """
         target = Path(path)
-        target = target / "graph.json" if target.is_dir() else target
-        text = read_text_within(target, GRAPH, FormatError, "'cadgraph build' makes it")
+        target = target / GRAPH_FILE if target.is_dir() else target
+        settle_if_free(target.parent)
+        remedy = "'cadgraph build' makes it"
+        content = read_checked(target, GRAPH, FormatError, remedy)
+        text = decoded(content, target, FormatError, remedy)
         try:
             data = json.loads(text)
         except (ValueError, RecursionError) as error:
             raise FormatError(f"{target}: not JSON ({error}); give a folder that 'cadgraph build' wrote") from error
-        return cls.from_json(data, str(target))
+        if is_cut(data):
+            if is_too_deep(data):
+                raise FormatError(f"{target}: holds values in more than {MOST_LEVELS} levels; build the graph anew")
+            graph = cls(ShardedContent(target.parent, data, str(target)))
+        else:
+            graph = cls.from_json(data, str(target))
+        graph.digest = hashlib.sha256(content).hexdigest()
+        return graph
 
     # Look-ups, made when first needed
 
     @cached_property
-    def _rank(self) -> dict[str, int]:
-        return {node.id: i for i, node in enumerate(self.document.nodes)}
-
-    @cached_property
-    def _touching(self) -> dict[str, set[str]]:
-        touching: dict[str, set[str]] = {node: set() for node in self.nodes}
-        for edge in self.of_kind(Adjacent):
-            touching[edge.source].add(edge.target)
-            touching[edge.target].add(edge.source)
-        return touching
-
-    @cached_property
     def _pipework(self) -> Pipework:
-        return Pipework(self.document.nodes, self.of_kind(Connected))
+        return Pipework(self._content.places, self.of_kind(Connected))
 
     def _related_at(self, unit: str) -> list[Related]:
         return [edge for edge in self.of_kind(Related) if unit in (edge.source, edge.target)]
@@ -423,7 +465,7 @@ class SceneGraph:
         queue = deque([first])
         while queue and last not in came_from:
             here = queue.popleft()
-            for there in sorted(self._touching[here], key=self._rank.__getitem__):
+            for there in self._content.touching(here):
                 if there not in came_from:
                     came_from[there] = here
                     queue.append(there)
@@ -441,18 +483,6 @@ class SceneGraph:
             members.setdefault(edge.source, set()).add(edge.target)
         return members
 
-    @cached_property
-    def _cluster_of_part(self) -> dict[str, str]:
-        return {m: c.id for c in self.of_layer(Cluster) for m in self._members.get(c.id, ())}
-
-    @cached_property
-    def _unit_of_part(self) -> dict[str, str]:
-        return {part: unit.id for unit in self.of_layer(Unit) for part in unit.parts}
-
-    @cached_property
-    def _names(self) -> Names:
-        return Names(self.nodes)
-
     def _resolve(self, which: Part | Functional | str) -> Node:
         if not isinstance(which, str):
             if not isinstance(getattr(which, "id", None), str):
@@ -460,20 +490,20 @@ class SceneGraph:
             if which.id not in self.nodes:
                 raise UnknownNode(f"{which.id!r} is not in this graph")
             return self.nodes[which.id]
-        return self._names.find(which, get_args(Node))
+        return self._content.find(which, get_args(Node))
 
     def _unit_types(self) -> set[str]:
         """Those in the graph, and those of the vocabulary's groups."""
-        trees = [tree for tree in self.document.vocabulary.values() if isinstance(tree, Mapping)]
+        trees = [tree for tree in self.vocabulary.values() if isinstance(tree, Mapping)]
         types = {str(tree["unit"]) for tree in trees if tree.get("unit")}
         return types | {unit.unit_type for unit in self.of_layer(Unit)}
 
     def _check_label(self, group: str | None, name: str | None) -> None:
         """A group or name that can't be in the graph is a mistake, not an empty answer."""
-        known = self.document.vocabulary
+        known = self.vocabulary
         if not known or (group is None and name is None):
             return
-        in_use = {(p.label.group, p.label.name) for p in self.of_layer(Part) if p.label is not None}
+        in_use = set(self.label_counts)
         if group is not None and group not in known and not any(group == used for used, _ in in_use):
             raise ValueError(f"no group is called {group!r}; the graph's vocabulary has {', '.join(map(str, known))}")
         if name is None or any(name == used for _, used in in_use):
@@ -483,6 +513,12 @@ class SceneGraph:
         if name not in names:
             where = "the graph's vocabulary" if group is None else f"group {group!r}"
             raise ValueError(f"{where} has no name {name!r}; it has {', '.join(map(str, names))}")
+
+
+def _shard_above(config: Mapping[str, Any]) -> int:
+    written = config.get("graph")
+    above = written.get("shard_above") if isinstance(written, Mapping) else None
+    return above if isinstance(above, int) and above > 0 else ABOVE
 
 
 def _check_way(node: Node, direction: str | None) -> None:

@@ -14,6 +14,7 @@ from typing import Any, Literal, Self
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
+from cadgraph._io.depth import MOST_LEVELS, is_too_deep
 from cadgraph._io.json_rows import write_json_rows
 from cadgraph._io.limits import TRUTH, read_text_within
 from cadgraph.errors import FormatError
@@ -254,6 +255,8 @@ class Truth(_Record):
             raise FormatError(
                 f"{where}: truth version {data.get('version')!r}, but this cadgraph reads version {VERSION}; update it"
             )
+        if is_too_deep(data):
+            raise FormatError(f"{where}: holds values in more than {MOST_LEVELS} levels; write it anew")
         try:
             return cls.model_validate(data)
         except ValidationError as error:

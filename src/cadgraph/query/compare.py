@@ -26,6 +26,8 @@ __all__ = [
     "read_mapping",
 ]
 
+_MOST_SHOWN = 100  # characters of a tag in a message
+
 
 @dataclass(frozen=True)
 class Found:
@@ -214,7 +216,7 @@ def read_mapping(text: str, where: str) -> dict[str, str]:
         if len(row) != 2 or not all(row):
             raise ValueError(f"{where}: line {number}: give the plan's tag and the plant's tag with a comma in between")
         if row[0] in found:
-            raise ValueError(f"{where}: line {number}: {row[0]!r} is there twice; keep one line")
+            raise ValueError(f"{where}: line {number}: {row[0][:_MOST_SHOWN]!r} is there twice; keep one line")
         found[row[0]] = row[1]
     return found
 

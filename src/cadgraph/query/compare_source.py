@@ -180,7 +180,7 @@ def standing_aside(network: Network) -> frozenset[str]:
 
 
 def _was_used(graph: SceneGraph) -> bool:
-    relate = graph.document.config.get("relate")
+    relate = graph.config.get("relate")
     return isinstance(relate, Mapping) and relate.get("use_metadata") is True
 
 

@@ -78,7 +78,7 @@ class _Plant:
         self.network = network
         self.graph = network.graph
         self.joints: dict[str, list[Joint]] = {}
-        for joint in self.graph.document.joints:
+        for joint in self.graph.joints():
             if joint.made:
                 self.joints.setdefault(joint.first, []).append(joint)
                 self.joints.setdefault(joint.second, []).append(joint)

@@ -138,7 +138,7 @@ def explain_connection(graph: SceneGraph | Network, start: str, end: str) -> Con
     if first == last:
         raise ValueError(f"{start} and {end} are both {network.name(first)}: give two different ones")
     blank = ConnectionExplanation(
-        start=network.name(first), end=network.name(last), recorded=bool(network.graph.document.joints)
+        start=network.name(first), end=network.name(last), recorded=bool(network.graph.joints())
     )
     search = _Search(network)
     distances, ways = network.shortest(first, network.follower(None))
@@ -165,7 +165,7 @@ class _Search:
     def __init__(self, network: Network) -> None:
         self._network = network
         self._made: dict[str, list[Joint]] = {}
-        for joint in network.graph.document.joints:
+        for joint in network.graph.joints():
             if joint.made:
                 self._made.setdefault(joint.first, []).append(joint)
                 self._made.setdefault(joint.second, []).append(joint)

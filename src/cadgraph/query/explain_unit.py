@@ -157,14 +157,14 @@ def explain_unit(graph: SceneGraph | Network, which: str) -> UnitExplanation:
         used=network.ports_in_use(place),
         joints=elsewhere,
         open_joints=tuple(joint for joint in told if not joint.made),
-        recorded=bool(network.graph.document.joints),
+        recorded=bool(network.graph.joints()),
         facts=node.facts if isinstance(node, Unit) else (),
     )
 
 
 def _told(network: Network, own: frozenset[str]) -> list[ToldJoint]:
     """The joints between some parts and others, the surest first."""
-    joints = [joint for joint in network.graph.document.joints if (joint.first in own) != (joint.second in own)]
+    joints = [joint for joint in network.graph.joints() if (joint.first in own) != (joint.second in own)]
     joints.sort(key=lambda joint: (-joint.score, joint.first, joint.second, joint.point))
     return [tell_joint(network, joint, own) for joint in joints]
 

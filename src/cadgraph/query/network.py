@@ -19,7 +19,7 @@ class Network(Pipework):
     """
 
     def __init__(self, graph: SceneGraph) -> None:
-        super().__init__(graph.document.nodes, graph.of_kind(Connected))
+        super().__init__(graph.places, graph.of_kind(Connected))
         self.graph = graph
 
     def find(self, which: str) -> str:
@@ -33,7 +33,7 @@ class Network(Pipework):
     @cached_property
     def open_joints(self) -> tuple[Joint, ...]:
         """The joints that were not made, in the order of the file."""
-        return tuple(joint for joint in self.graph.document.joints if not joint.made)
+        return tuple(joint for joint in self.graph.joints() if not joint.made)
 
     @cached_property
     def _owner_of_part(self) -> dict[str, str]:

@@ -9,7 +9,7 @@ from typing import Literal
 
 from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.graph import SceneGraph
-from cadgraph.model.records import Adjacent, Connected, Junction, Terminal
+from cadgraph.model.records import Connected, Junction, Terminal
 from cadgraph.query.doubt import unconnected
 from cadgraph.query.network import Network
 
@@ -83,8 +83,9 @@ def connection_between(graph: SceneGraph, edge: Connected) -> Literal["units", "
 
 def summarize(graph: SceneGraph) -> Summary:
     """Counts what a graph holds."""
-    parts = graph.parts()
-    groups = Counter(part.label.group for part in parts if part.label is not None)
+    groups: Counter[str] = Counter()
+    for (group, _), n in graph.label_counts.items():
+        groups[group] += n
     units: dict[str, list[str]] = {}
     for unit in graph.units():
         units.setdefault(unit.unit_type, []).append(unit.tag)
@@ -95,13 +96,13 @@ def summarize(graph: SceneGraph) -> Summary:
         source=graph.source.path,
         n_meshes=graph.source.n_meshes,
         n_triangles=graph.source.n_triangles,
-        n_parts=len(parts),
+        n_parts=graph.count("part"),
         n_clusters=len(graph.clusters()),
         n_with_pipes=len(graph.clusters("pipe system")),
-        n_labelled=sum(part.label is not None for part in parts),
+        n_labelled=groups.total(),
         groups=dict(sorted(groups.items(), key=lambda item: (-item[1], item[0]))),
         units={unit_type: tuple(tags) for unit_type, tags in units.items()},
-        n_adjacent=len(graph.of_kind(Adjacent)),
+        n_adjacent=graph.count("adjacent"),
         n_connected=len(graph.connections()),
         between=dict(Counter(connection_between(graph, edge) for edge in graph.connections())),
         n_junctions=len(graph.junctions()),

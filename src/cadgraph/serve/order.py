@@ -8,6 +8,7 @@ from pathlib import Path
 from cadgraph._io.atomic import ensure_writable
 from cadgraph._io.digest import sha256_of
 from cadgraph._io.run_folder import refuse_foreign
+from cadgraph._io.staging import result_path
 from cadgraph.config import Config
 from cadgraph.errors import FormatError, LoadError
 from cadgraph.model.graph import SceneGraph
@@ -41,7 +42,7 @@ class Order:
             OutputError: the folder can't be written although results go there.
         """
         if self.source is None:
-            if not (self.folder / "graph.json").is_file():
+            if not result_path(self.folder / "graph.json").is_file():
                 raise FormatError(
                     f"{self.folder}: holds no graph.json; give a folder that 'cadgraph build' wrote, or a scene"
                 )

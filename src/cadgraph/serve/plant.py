@@ -28,7 +28,7 @@ from cadgraph.serve.state import Feed, Refusal, State
 from cadgraph.session.reopen import FormerLabeler, config_of, reopen
 from cadgraph.session.review.question import Question
 from cadgraph.session.review.queue import review_queue
-from cadgraph.session.run import Clock, begin, write_graph, write_results
+from cadgraph.session.run import Clock, begin, write_graph, write_report_anew, write_results
 from cadgraph.session.session import Change, Session
 from cadgraph.session.source import find_source
 from cadgraph.stages.preprocess import prepare_scene
@@ -36,6 +36,9 @@ from cadgraph.stages.preprocess import prepare_scene
 __all__ = ["Plant"]
 
 _MOST_ANSWERABLE = 1000  # questions among which one is looked for that nobody has asked for before
+
+
+_Saved = tuple[SceneGraph, str | None]  # a graph, and the digest of the corrections that it shows
 
 
 class _Stopping(Exception):
@@ -239,7 +242,7 @@ class Plant:
         self._not_kept = False
         self.feed.publish(read_only=None)
         if self._behind and self._session is not None and not self._saver.pending:
-            self._saver.give(self._session.graph)
+            self._saver.give((self._session.graph, self._session.kept))
 
     def _check_place(self) -> None:
         """Makes sure that nothing is written where a folder was, or where another one is now."""
@@ -347,14 +350,10 @@ class Plant:
         Raises:
             OutputError: it can't be written.
         """
-        from cadgraph.draw.report import write_report
-
         session = self._session
         if session is not None and self.feed.state.read_only is None:
             self._check_place()
-            write_report(
-                session.analysis.scene, session.graph, self._order.folder / "report.html", session.config.report
-            )
+            write_report_anew(session, self._order.folder)
 
     def _act(self, version: int, act: Callable[[Session], Change]) -> dict[str, Any]:
         session = self._check(version)
@@ -400,7 +399,7 @@ class Plant:
         before = self.shown()
         self._snapshot = Snapshot(before.version + 1, session.graph, before.scene)
         self._questions.clear()
-        self._saver.give(session.graph)
+        self._saver.give((session.graph, session.kept))
         self._publish(session, message=message)
 
     def _publish(self, session: Session, **changes: Any) -> None:
@@ -424,10 +423,11 @@ class Plant:
 
     # Beside the work, by the saver's thread
 
-    def _save(self, graph: SceneGraph) -> None:
+    def _save(self, content: _Saved) -> None:
         if self._source is not None:
             self._check_place()
-            write_graph(self.shown().scene, graph, self._source, self._order.folder)
+            graph, corrections = content
+            write_graph(self.shown().scene, graph, self._source, self._order.folder, corrections)
 
     def _saved(self, failed: str | None) -> None:
         if failed is not None:

@@ -14,7 +14,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 
 from cadgraph._io.folder_lock import holding
-from cadgraph._io.run_folder import sweep
+from cadgraph._io.run_folder import tidy
 from cadgraph.serve.app import make_app
 from cadgraph.serve.guard import Doors, is_loopback
 from cadgraph.serve.listening import Server, listen
@@ -88,7 +88,7 @@ def view(order: Order, options: Options, say: Say) -> Ending:
 
 def _serve(order: Order, options: Options, say: Say) -> Ending:
     with holding(order.folder), listen(options.host, options.port) as listener:
-        sweep(order.folder)
+        tidy(order.folder)
         doors, token = Doors(options.host, listener.getsockname()[1]), secrets.token_urlsafe(24)
         plant = Plant(order, options.who)
         worker = ThreadPoolExecutor(1, thread_name_prefix="cadgraph-worker")

@@ -5,15 +5,17 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Callable
+from typing import Generic, TypeVar
 
 from cadgraph.errors import CadGraphError
-from cadgraph.model.graph import SceneGraph
 
 __all__ = ["Saver"]
 
+Content = TypeVar("Content")
 
-class Saver:
-    """Writes the last of the graphs that it is given, when none has come for a while.
+
+class Saver(Generic[Content]):
+    """Writes the last of the graphs that it is given, with what belongs to each, when none has come for a while.
 
     Args:
         write: writes one.
@@ -22,18 +24,18 @@ class Saver:
     """
 
     def __init__(
-        self, write: Callable[[SceneGraph], None], failed: Callable[[str | None], None], delay: float = 2.0
+        self, write: Callable[[Content], None], failed: Callable[[str | None], None], delay: float = 2.0
     ) -> None:
         self._write, self._failed, self._delay = write, failed, delay
         self._changed = threading.Condition()
-        self._waiting: SceneGraph | None = None
+        self._waiting: Content | None = None
         self._due = 0.0
         self._busy = self._closing = False
         # A process that is ended must not wait for it: what it writes follows from what is on disk.
         self._thread = threading.Thread(target=self._run, name="cadgraph-saver", daemon=True)
         self._thread.start()
 
-    def give(self, graph: SceneGraph) -> None:
+    def give(self, graph: Content) -> None:
         """Has a graph written in place of those before it."""
         with self._changed:
             self._waiting, self._due = graph, time.monotonic() + self._delay
@@ -64,7 +66,7 @@ class Saver:
                 self._changed.notify_all()
             self._failed(told)
 
-    def _next(self) -> SceneGraph | None:
+    def _next(self) -> Content | None:
         with self._changed:
             while True:
                 left = self._due - time.monotonic() if self._waiting is not None else None

@@ -7,11 +7,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
 
-from cadgraph._io.atomic import write_atomically
-from cadgraph._io.digest import sha256_of
 from cadgraph._io.progress import Progress, quiet
+from cadgraph._io.results import new_results
 from cadgraph._io.run_folder import results_folder
-from cadgraph.model.corrections import CORRECTIONS, read_history
+from cadgraph.model.corrections import read_history
 from cadgraph.model.edits import Correction
 from cadgraph.model.given_labels import split_label
 from cadgraph.model.graph import SceneGraph
@@ -19,7 +18,7 @@ from cadgraph.model.records import Part
 from cadgraph.model.vocabulary import Vocabulary
 from cadgraph.session.reopen import FormerLabeler, config_of, reopen
 from cadgraph.session.requests import EditRequest
-from cadgraph.session.run import Clock, Outcome, write_graph, write_rest
+from cadgraph.session.run import Clock, Outcome, stage_graph, write_rest
 from cadgraph.session.session import Change, Session, changed_parts
 from cadgraph.session.source import find_source
 
@@ -80,7 +79,7 @@ def amend(
     """
     before, target = _opened(folder)
     node = before.part(part)
-    tree = Vocabulary.from_json(before.document.vocabulary, f"{folder}: vocabulary of the graph")
+    tree = Vocabulary.from_json(before.vocabulary, f"{folder}: vocabulary of the graph")
     if label is not None:
         split_label(label, tree)
     corrected = {edit.mesh for edit in read_history(target, tree).in_force if isinstance(edit, Correction)}
@@ -177,30 +176,12 @@ def _changed(
         config = config_of(folder)
         source = find_source(before.source, target, scene)
         former = FormerLabeler(before) if config.lvlm.ask != "never" else None
-        session = reopen(before, target, source, config, former, clock, keep=True)
-        file = target / CORRECTIONS
-        old = file.read_bytes() if file.exists() else None
-        done = change(session)
-        session.make_graph(clock)
-        standing = sha256_of(target / "graph.json")
-        try:
+        # A correction that the graph does not show must not wait for a later build: both come together.
+        with new_results(target) as new:
+            session = reopen(before, target, source, config, former, clock, keep=True)
+            done = change(session)
+            session.make_graph(clock)
             clock("write graph", 0)
-            write_graph(session.analysis.scene, session.graph, source, target)
-        except BaseException:
-            # A correction that the graph does not show must not wait for a later build.
-            if sha256_of(target / "graph.json") == standing:
-                _put_back(file, old)
-            raise
-        try:
-            outcome = write_rest(session, target, report, clock)
-        except BaseException as stop:
-            stop.add_note("the correction is kept and the graph written; only the report may still be the one before")
-            raise
+            stage_graph(session.analysis.scene, session.graph, source, target)
+            outcome = write_rest(session, target, new, report, clock)
     return Amendment(outcome, done.part, changed_parts(before, outcome.graph), done.message, session.lost)
-
-
-def _put_back(file: Path, content: bytes | None) -> None:
-    if content is None:
-        file.unlink(missing_ok=True)
-    else:
-        write_atomically(file, content, durable=True)

@@ -94,13 +94,13 @@ def reopen(
         OutputError: a result would take the place of a file of the scene.
     """
     check_target(source, target)
-    tree = Vocabulary.from_json(graph.document.vocabulary, f"{target}: vocabulary of the graph")
+    tree = Vocabulary.from_json(graph.vocabulary, f"{target}: vocabulary of the graph")
     file = CorrectionsFile(target)
     history = file.read(tree)
     if scene is None:
         progress("read", 0)
         scene = load(source, config.load)
-    check_layers(source, target)
+    check_layers(source, target, config.load.asset_roots)
     return Session.start(
         scene,
         config,
@@ -132,7 +132,7 @@ def config_of(folder: str | Path) -> Config:
         FormatError: the folder holds no graph, or one with settings that aren't known any more.
     """
     try:
-        return restore_config(SceneGraph.load(folder).document.config)
+        return restore_config(SceneGraph.load(folder).config)
     except ValueError as error:
         raise FormatError(f"{folder}: its settings can't be used any more ({error}); build the graph anew") from error
 
@@ -143,7 +143,7 @@ def vocabulary_of(folder: str | Path) -> Vocabulary:
     Raises:
         FormatError: the folder holds no graph.
     """
-    return Vocabulary.from_json(SceneGraph.load(folder).document.vocabulary, f"{folder}: vocabulary of the graph")
+    return Vocabulary.from_json(SceneGraph.load(folder).vocabulary, f"{folder}: vocabulary of the graph")
 
 
 class FormerLabeler:

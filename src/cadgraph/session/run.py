@@ -5,12 +5,14 @@ from __future__ import annotations
 import json
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from cadgraph._io.atomic import write_atomically
+from cadgraph._io.manifest import of_an_earlier_graph
 from cadgraph._io.progress import Progress, quiet
-from cadgraph._io.run_folder import clear_results, refuse_to_overwrite, results_folder
+from cadgraph._io.results import NewResults, new_results
+from cadgraph._io.run_folder import refuse_to_overwrite, results_folder
 from cadgraph.config import Config
 from cadgraph.labelers.base import AskingLabeler, Labeler
 from cadgraph.load import load
@@ -22,7 +24,20 @@ from cadgraph.model.vocabulary import Vocabulary, default_vocabulary, read_vocab
 from cadgraph.pipeline import STAGES
 from cadgraph.session.session import Session
 
-__all__ = ["RUN_STAGES", "Outcome", "begin", "run", "write_graph", "write_rest", "write_results"]
+__all__ = [
+    "RUN_STAGES",
+    "Outcome",
+    "begin",
+    "run",
+    "stage_graph",
+    "write_graph",
+    "write_report_anew",
+    "write_rest",
+    "write_results",
+]
+
+_OF_ITS_GRAPH = ("scene.usdc", "simulation.usda", "devices.json")
+"""Results that are of no use beside another graph. A report stays readable."""
 
 RUN_STAGES = ("read", *STAGES, "write graph", "write labels", "draw report")
 """The names that ``run`` gives to its progress, in order."""
@@ -36,11 +51,15 @@ class Outcome:
         graph: the scene graph.
         files: what was written, by purpose (``"graph"``, ``"labels"``, ``"report"``, ``"picture"``, ``"timings"``).
         seconds: wall time of each stage [s].
+        earlier: names of the files in the folder that still show an earlier graph, as a report that was not drawn anew.
+        removed: names of the files that went with the earlier graph.
     """
 
     graph: SceneGraph
     files: dict[str, Path]
     seconds: dict[str, float] = field(default_factory=dict)
+    earlier: tuple[str, ...] = ()
+    removed: tuple[str, ...] = ()
 
 
 def run(
@@ -56,10 +75,11 @@ def run(
 ) -> Outcome:
     """Reads a scene, builds its graph, and writes ``graph.json``, ``semantics.usda``, ``report.html`` and pictures.
 
-    Each file is written whole or not at all; the folder is tried before the work begins, and results of an earlier run
-    in it are removed before the first new one is written. Corrections that lie in the folder are applied again. Where
-    a model is only to be asked in this run and answers later (a dry run, requests for a batch), a graph that is there
-    already stays as it is.
+    All files come into the folder together, when the last of them is complete: whatever ends the process, the folder
+    holds the results of an earlier run or those of this one. It is tried before the work begins. Without a report, that
+    of an earlier run stays, and says so. Corrections that lie in the folder are applied again. Where a model is only to
+    be asked in this run and answers later (a dry run, requests for a batch), a graph that is there already stays as it
+    is.
 
     Args:
         source: the scene's file.
@@ -122,7 +142,7 @@ def begin(
     history = file.read(tree)
     progress("read", 0)
     scene = load(source, config.load)
-    check_layers(source, target)
+    check_layers(source, target, config.load.asset_roots)
     return Session.start(
         scene,
         config,
@@ -148,24 +168,25 @@ def write_results(session: Session, source: str | Path, target: Path, report: bo
     Raises:
         OutputError: a file can't be written.
     """
-    from cadgraph.export.usd import write_semantics
-
-    graph, scene = session.make_graph(clock), session.analysis.scene
-    clock("write graph", 0)
-    clear_results(target)
-    graph.save(target / "graph.json")
-    clock("write labels", 0)
-    write_semantics(scene, graph, source, target / "semantics.usda")
-    return write_rest(session, target, report, clock)
+    graph = session.make_graph(clock)
+    there = [name for name in _OF_ITS_GRAPH if (target / name).exists()]
+    with new_results(target, dropped=_OF_ITS_GRAPH) as new:
+        clock("write graph", 0)
+        stage_graph(session.analysis.scene, graph, source, target, clock)
+        outcome = write_rest(session, target, new, report, clock)
+    return replace(outcome, removed=tuple(name for name in there if not (target / name).exists()))
 
 
-def write_rest(session: Session, target: Path, report: bool, clock: Clock) -> Outcome:
-    """Writes what is made from a graph that stands in its folder: the report, and how long everything took.
+def write_rest(session: Session, target: Path, new: NewResults, report: bool, clock: Clock) -> Outcome:
+    """Writes what is made from a graph: the report, and how long everything took; then all of it comes to its place.
+
+    Where the report fails, or somebody stops it, the graph comes all the same.
 
     Args:
         session: whose graph it is.
-        target: the folder with the graph.
-        report: whether to draw pictures and write the report.
+        target: the folder.
+        new: what is coming into it; with the graph.
+        report: whether to draw pictures and write the report; that of an earlier graph says else that it is one.
         clock: takes the time of each stage.
 
     Raises:
@@ -178,25 +199,72 @@ def write_rest(session: Session, target: Path, report: bool, clock: Clock) -> Ou
 
         clock("draw report", 0)
         report_file = target / "report.html"
-        files["report"] = write_report(session.analysis.scene, graph, report_file, session.config.report, clock)
+        try:
+            files["report"] = write_report(session.analysis.scene, graph, report_file, session.config.report, clock)
+        except BaseException as stop:
+            _keep_report(target, new)
+            new.commit()
+            stop.add_note("the graph is written; only the report is still the one before")
+            raise
         files["picture"] = target / "picture.png"
+    else:
+        _keep_report(target, new)
     clock("", 1)
     files["timings"] = target / "timings.json"
     write_atomically(files["timings"], json.dumps(clock.seconds, indent=1) + "\n")
-    return Outcome(graph, files, clock.seconds)
+    new.commit()
+    return Outcome(graph, files, clock.seconds, of_an_earlier_graph(target))
 
 
-def write_graph(scene: Scene, graph: SceneGraph, source: str | Path, target: Path) -> None:
+def write_graph(
+    scene: Scene, graph: SceneGraph, source: str | Path, target: Path, corrections: str | None = None
+) -> None:
     """Writes another graph of the same scene over the one in a folder, and the label layer with it.
 
-    Whenever the process ends, the folder holds one of the two graphs, whole. The report and its picture, which would
-    show the graph as it was, are removed.
+    Whenever the process ends, the folder holds one of the two graphs, whole. A report of the graph before stays, and
+    says that it is one.
 
     Args:
         scene: all meshes that the graph is of.
         graph: finished.
         source: the scene's file.
         target: the folder; it exists.
+        corrections: digest of those that the graph shows; None: those in the folder.
+
+    Raises:
+        OutputError: a file can't be written.
+        LoadError: the source can't be opened any more.
+    """
+    with new_results(target, corrections=corrections) as new:
+        stage_graph(scene, graph, source, target)
+        _keep_report(target, new)
+
+
+def write_report_anew(session: Session, target: Path) -> None:
+    """Draws the report of the graph in a folder, with its picture.
+
+    Args:
+        session: whose graph it is.
+        target: the folder; it exists.
+
+    Raises:
+        OutputError: a file can't be written.
+    """
+    from cadgraph.draw.report import write_report
+
+    with new_results(target):
+        write_report(session.analysis.scene, session.graph, target / "report.html", session.config.report)
+
+
+def stage_graph(scene: Scene, graph: SceneGraph, source: str | Path, target: Path, progress: Progress = quiet) -> None:
+    """Writes a graph and its label layer; within ``new_results``, with whatever else is coming into the folder.
+
+    Args:
+        scene: all meshes that the graph is of.
+        graph: finished.
+        source: the scene's file.
+        target: the folder; it exists.
+        progress: called with the name of a stage.
 
     Raises:
         OutputError: a file can't be written.
@@ -204,10 +272,23 @@ def write_graph(scene: Scene, graph: SceneGraph, source: str | Path, target: Pat
     """
     from cadgraph.export.usd import write_semantics
 
-    clear_results(target, ("report.html", "picture.png"))
+    graph.save(target)
+    progress("write labels", 0)
     write_semantics(scene, graph, source, target / "semantics.usda")
-    # Last, as the folder is taken for finished where it holds this graph.
-    graph.save(target / "graph.json")
+
+
+def _keep_report(target: Path, new: NewResults) -> None:
+    """Has a report that is there already say whether it shows an earlier graph than the one to come."""
+    file = target / "report.html"
+    if not file.is_file():
+        return
+    from cadgraph.draw.report import marked_as_earlier
+
+    content = file.read_bytes()
+    marked = marked_as_earlier(content, new.is_earlier(file.name))
+    if marked != content:
+        new.keep(file.name)
+        write_atomically(file, marked)
 
 
 def check_target(source: str | Path, target: Path) -> None:
@@ -226,12 +307,13 @@ def check_target(source: str | Path, target: Path) -> None:
     check_source(source, target / "semantics.usda")
 
 
-def check_layers(source: str | Path, target: Path) -> None:
+def check_layers(source: str | Path, target: Path, asset_roots: Sequence[str] = ()) -> None:
     """Refuses a folder in which a result of an earlier run has become a layer of the scene.
 
     Args:
         source: the scene's file, which can be read.
         target: the folder.
+        asset_roots: as in ``LoadConfig``; other files are not looked at.
 
     Raises:
         OutputError: one has.
@@ -240,7 +322,7 @@ def check_layers(source: str | Path, target: Path) -> None:
     from cadgraph.load.usd_assets import open_layers
 
     if is_usd(source) and ((target / "semantics.usda").exists() or (target / "scene.usdc").exists()):
-        layers = [layer.realPath for layer in open_layers(Path(source)) if layer.realPath]
+        layers = [layer.realPath for layer in open_layers(Path(source), asset_roots) if layer.realPath]
         refuse_to_overwrite(target, layers, "a file that the source refers to")
 
 

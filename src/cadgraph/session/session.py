@@ -298,6 +298,11 @@ class Session:
         return self._become(history, history.events[-1].what)
 
     @property
+    def kept(self) -> str | None:
+        """Digest of the file of the corrections as it was last read or written; None where they are in memory alone."""
+        return None if self._file is None else self._file.known
+
+    @property
     def overtaken(self) -> bool:
         """Whether another program has changed the file of the corrections.
 

@@ -9,7 +9,7 @@ from typing import Any
 from cadgraph._io.text import tag_key
 from cadgraph.agents.answer import cell
 from cadgraph.model.graph import SceneGraph
-from cadgraph.model.records import Adjacent, Box, Cluster, Part, System, Unit
+from cadgraph.model.records import Adjacent, Box, Cluster, Part, Place, System, Unit
 from cadgraph.model.regions import region_of
 from cadgraph.query.lines import Line
 from cadgraph.query.network import Arc, Network
@@ -34,7 +34,7 @@ def make_tables(network: Network, lines: Sequence[Line], extent: Box) -> Rows:
     """
     graph = network.graph
     names = {place: network.name(place) for place in network.places}
-    places = [node.model_dump() for node in graph.document.nodes if str(node.layer) == "place"]
+    places = [node.model_dump() for node in graph.of_layer(Place)]
     levels = _level_names(places)
     return {
         "unit": list(_units(network, names, levels, extent)),

@@ -145,7 +145,7 @@ def cluster_colors(graph: SceneGraph) -> dict[str, str]:
 def _drawn_edges(graph: SceneGraph) -> list[Edge]:
     """What the red lines stand for: connections along pipes; Algorithm 1's relations in paper mode or without them."""
     connected, related = list[Edge](graph.of_kind(Connected)), list[Edge](graph.of_kind(Related))
-    return related or connected if graph.document.config.get("method") == "paper" else connected or related
+    return related or connected if graph.config.get("method") == "paper" else connected or related
 
 
 def _by_group(ready: _Ready, camera: Camera, image: Image.Image, legend: tuple[LegendEntry, ...]) -> Picture:

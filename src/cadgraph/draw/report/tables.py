@@ -317,7 +317,7 @@ def setting_table(graph: SceneGraph) -> Table:
     """Every setting in force, with its meaning and source."""
     meanings = {name: (meaning, source) for name, _, meaning, source in describe(Config())}
     rows = []
-    for name, value in _flattened(graph.document.config, ""):
+    for name, value in _flattened(graph.config, ""):
         meaning, source = meanings.get(name, ("", ""))
         text = value if isinstance(value, str) else json.dumps(value, ensure_ascii=False)
         rows.append((Cell(name, code=True), Cell(text, code=True), Cell(meaning), Cell(source)))

@@ -56,7 +56,7 @@ def content_of(graph: SceneGraph, scene: Scene, version: int = 0) -> dict[str, A
     """
     origin = _point(scene.origin.tolist())
     owner = _part_of_mesh(graph)
-    vocabulary = graph.document.vocabulary
+    vocabulary = graph.vocabulary
     return {
         "version": version,
         "title": file_name(graph.source.path),
@@ -168,7 +168,7 @@ def network_of(graph: SceneGraph, rows: Mapping[str, int] | None = None, origin:
             for each in systems
         ],
         "clusters": [{"id": each.id, "kind": each.kind, "n_parts": each.n_parts} for each in graph.of_layer(Cluster)],
-        "joints": [_joint(joint, row, origin) for joint in graph.document.joints],
+        "joints": [_joint(joint, row, origin) for joint in graph.joints()],
     }
 
 

@@ -23,6 +23,7 @@ from cadgraph._io.limits import NOTE, read_text_within
 from cadgraph.errors import LoadError, MissingExtra
 from cadgraph.load.finish import finish
 from cadgraph.load.sandbox.exchange import write_scene
+from cadgraph.load.sandbox.memory import hold_to
 
 if TYPE_CHECKING:
     from cadgraph.config import LoadConfig
@@ -44,6 +45,7 @@ def main(folder: Path) -> None:
     # The caller has checked these settings; importing pydantic only to check them again would cost a fifth of a start.
     config = cast("LoadConfig", SimpleNamespace(**request["config"]))
     path = Path(request["path"])
+    hold_to(request["memory"])
     try:
         scene = finish(importlib.import_module(request["module"]).read(path, config), config, path)
     except (LoadError, MissingExtra) as error:

@@ -20,6 +20,7 @@ from cadgraph._io.search_path import search_path
 from cadgraph._io.text import printable
 from cadgraph.errors import LoadError, MissingExtra
 from cadgraph.load.sandbox.exchange import read_scene
+from cadgraph.load.sandbox.memory import allowed_bytes, ran_out
 from cadgraph.model.scene import Scene
 
 if TYPE_CHECKING:
@@ -52,7 +53,13 @@ def read_isolated(module: str, file: Path, given: str, config: LoadConfig) -> Sc
         MissingExtra: what the file holds needs a package that isn't installed.
     """
     with _exchange_folder() as folder:
-        request = {"module": module, "path": str(file.absolute()), "config": config.model_dump()}
+        memory = allowed_bytes(config.memory)
+        request = {
+            "module": module,
+            "path": str(file.absolute()),
+            "config": config.model_dump(),
+            "memory": memory,
+        }
         (folder / "request.json").write_text(json.dumps(request), encoding="utf-8")
         code = _run(folder, given, config.timeout)
         if (folder / "error.json").exists():
@@ -61,7 +68,7 @@ def read_isolated(module: str, file: Path, given: str, config: LoadConfig) -> Sc
                 raise MissingExtra(*told)
             raise LoadError(_with_given_path(told, file, given))
         if code != 0:
-            raise LoadError(f"{given}: {_reason(code, folder / 'stderr.txt')}")
+            raise LoadError(f"{given}: {_reason(code, folder / 'stderr.txt', memory)}")
         try:
             return read_scene(folder)
         except (OSError, EOFError, ValueError, KeyError, TypeError) as error:
@@ -171,7 +178,15 @@ def _with_given_path(message: str, file: Path, given: str) -> str:
     return message.replace(str(file.absolute()), given)
 
 
-def _reason(code: int, stderr: Path) -> str:
+def _reason(code: int, stderr: Path, memory: int | None) -> str:
+    with stderr.open("rb") as file:
+        file.seek(max(0, stderr.stat().st_size - _STDERR_LIMIT))
+        said = file.read().decode("utf-8", "replace").strip()
+    if ran_out(said):
+        given = "" if memory is None else f" within {memory / 1e9:.3g} GB"
+        return (
+            f"there is not enough memory to read it{given}; close other programs, split the scene or raise load.memory"
+        )
     if code < 0:
         try:
             what = signal.Signals(-code).name
@@ -180,10 +195,6 @@ def _reason(code: int, stderr: Path) -> str:
         if what == "SIGKILL":
             return "reading it was ended by the system, likely for want of memory; close other programs or split it"
         return f"reading it crashed ({what}); the file is likely damaged, export it again"
-    with stderr.open("rb") as file:
-        file.seek(max(0, stderr.stat().st_size - _STDERR_LIMIT))
-        lines = file.read().decode("utf-8", "replace").strip().splitlines()
-    if lines and "MemoryError" in lines[-1]:
-        return "there is not enough memory to read it; close other programs, or split the scene"
+    lines = said.splitlines()
     last = printable(lines[-1])[:300].strip() if lines else f"exit code {code}"
     return f"reading it failed ({last}); the file is likely damaged, export it again"

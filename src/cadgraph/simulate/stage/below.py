@@ -8,12 +8,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from pxr import Sdf, Tf, Usd, UsdGeom, UsdShade, UsdUtils
+from pxr import Sdf, Tf, UsdGeom, UsdShade, UsdUtils
 
 from cadgraph.config import LoadConfig
 from cadgraph.errors import LoadError
 from cadgraph.load.packing import Notes
-from cadgraph.load.usd_assets import open_layers
+from cadgraph.load.usd_assets import open_stage
 from cadgraph.load.usd_walk import Walk
 from cadgraph.model.scene import Floats
 
@@ -60,9 +60,10 @@ class Below:
             known = Sdf.Layer.Find(str(file))
             if known is not None:
                 known.Reload()  # it may have been written anew since this process read it
-            self._layers = open_layers(file)
-            self.stage = Usd.Stage.Open(str(file), Usd.Stage.LoadAll)
-            walk = Walk(self.stage, settings.purposes, settings.invisible, settings.time, settings.sides, Notes())
+            self.stage, budget = open_stage(file, settings, Notes())
+            walk = Walk(
+                self.stage, settings.purposes, settings.invisible, settings.time, settings.sides, Notes(), budget
+            )
             placements = {each.path: each for each in walk.placements()}
         except Tf.ErrorException as error:
             raise LoadError(

@@ -17,6 +17,8 @@ import numpy as np
 from pxr import Gf, Sdf, Usd, UsdGeom, Vt
 
 from cadgraph._io.atomic import write_atomically
+from cadgraph._io.run_folder import coming_into
+from cadgraph._io.staging import result_path
 from cadgraph.config import LoadConfig
 from cadgraph.export.source import settings_of
 from cadgraph.export.usd import is_split, is_usd, prim_paths, write_semantics
@@ -70,7 +72,7 @@ def write_stage(graph: SceneGraph, source: str | Path, folder: str | Path, needl
     """Writes the stage with its table of joints; the same graph and source give the same bytes.
 
     The layer of labels (``semantics.usda``), and of a source that is not USD its geometry (``scene.usdc``), are
-    written into the folder too, as the stage refers to them.
+    written into the folder too, as the stage refers to them. All come into it together.
 
     Args:
         graph: the finished graph, whose units say what moves.
@@ -81,16 +83,21 @@ def write_stage(graph: SceneGraph, source: str | Path, folder: str | Path, needl
     Raises:
         FormatError: the graph was read with settings that aren't known any more.
         LoadError: the source can't be read any more, or is another one.
-        OutputError: a file can't be written.
+        OutputError: a file can't be written, or another process is at work in the folder.
         ValueError: the graph names a mesh that the source doesn't have.
     """
-    settings, target = settings_of(graph), Path(folder)
+    settings = settings_of(graph)
+    with coming_into(folder, graph.digest) as target:
+        return _write_stage(graph, source, target, settings, needles)
+
+
+def _write_stage(graph: SceneGraph, source: str | Path, target: Path, settings: LoadConfig, needles: bool) -> Written:
     scene = load(source, settings)
     devices = find_devices(graph, scene, needles)
     labels = write_semantics(scene, graph, source, target / "semantics.usda")
     converted = not is_usd(source) or is_split(scene)
     below = (
-        Below(labels.with_name("scene.usdc"), LoadConfig(), prim_paths(scene))
+        Below(result_path(labels.with_name("scene.usdc")), LoadConfig(), prim_paths(scene))
         if converted
         else Below(Path(source), settings, scene.paths)
     )

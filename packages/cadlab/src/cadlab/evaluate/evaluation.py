@@ -143,7 +143,7 @@ def evaluate(graph: SceneGraph, truth: Truth) -> Evaluation:
     """
     pairing = pair(graph, truth)
     facts = _observe(pairing)
-    method = graph.document.config.get("method")
+    method = graph.config.get("method")
     return Evaluation(
         scene=graph.source.path,
         method=method if isinstance(method, str) else None,

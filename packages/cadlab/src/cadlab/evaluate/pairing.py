@@ -154,7 +154,7 @@ def pair(graph: SceneGraph, truth: Truth) -> Pairing:
                 f"{graph.source.path or 'an unnamed scene'!s} ({len(seen)} meshes), {example!r} for one is not; "
                 "give the truth that belongs to the graph's scene"
             )
-    vocabulary = Vocabulary.from_json(graph.document.vocabulary) if graph.document.vocabulary else default_vocabulary()
+    vocabulary = Vocabulary.from_json(graph.vocabulary) if graph.vocabulary else default_vocabulary()
     return Pairing(graph, truth, vocabulary, _structures(truth, vocabulary))
 
 

@@ -1,0 +1,137 @@
+"""Commands and the folder of a run: one at a time, all of its files or none, and what is out of date says so."""
+
+import hashlib
+import shutil
+
+import pytest
+
+from cadgraph._io.folder_lock import holding
+from cadgraph._io.manifest import behind, changed_by_others, manifest_in, of_an_earlier_graph
+from cadgraph.draw.report import marked_as_earlier
+from cadgraph.model.corrections import read_corrections
+from cadgraph.model.graph import SceneGraph
+from command_line import refused, run
+from serving import make_folder, write_blocks
+
+SMALL = [word for name in ("samples=1", "width=64", "height=64") for word in ("--set", f"report.{name}")]
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory):
+    return make_folder(tmp_path_factory.mktemp("blocks"))
+
+
+@pytest.fixture
+def folder(made, tmp_path):
+    shutil.copytree(made.parent, tmp_path / "place")
+    return tmp_path / "place" / "out"
+
+
+def digests(folder):
+    return {path.name: hashlib.sha256(path.read_bytes()).hexdigest() for path in folder.iterdir() if path.is_file()}
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("build", "SCENE", "-o", "FOLDER", "--no-report"),
+        ("label", "FOLDER", "--labeler", "none", "--no-report"),
+        ("relabel", "FOLDER", "part-00001", "--as", "tee", "--no-report"),
+        ("correct", "FOLDER", "--label", "part-00001=tee", "--no-report"),
+        ("view", "FOLDER", "--no-browser"),
+        ("export", "FOLDER", "--to", "csv"),
+        ("export", "FOLDER", "--to", "usd"),
+        ("simulate", "FOLDER"),
+        ("catalog", "add", "SCENE", "--as", "Tank/tank", "--catalog", "FOLDER/parts.cadgraph-catalog"),
+    ],
+    ids=lambda words: "-".join(words[:1]),
+)
+def test_whoever_comes_second_is_refused_in_one_line_and_changes_nothing(capsys, folder, words):
+    named = {"SCENE": str(folder.parent / "plant.usda"), "FOLDER": str(folder)}
+    arguments = [named.get(word, word.replace("FOLDER", str(folder))) for word in words]
+    before = digests(folder)
+    with holding(folder):
+        said = refused(capsys, *arguments)
+    assert f"{folder}: another cadgraph is at work in it (this very process); end that one first" in said
+    assert digests(folder) == before
+
+
+def test_without_a_report_the_one_of_the_earlier_graph_stays_and_says_so(capsys, folder):
+    scene = folder.parent / "plant.usda"
+    run(capsys, "build", scene, "-o", folder, *SMALL, "--set", "label.labeler=none")
+    code, out, _ = run(capsys, "relabel", folder, "part-00001", "--as", "Tank/tank", "--this-only", "--no-report")
+    assert code == 0
+    assert "picture.png, report.html: of an earlier graph" in out
+    assert of_an_earlier_graph(folder) == ("picture.png", "report.html")
+    assert changed_by_others(folder) == ()
+    page = (folder / "report.html").read_text("utf-8")
+    assert page.count("This report shows an earlier graph") == 1
+    assert "report.html: of an earlier graph" in run(capsys, "show", folder)[1]
+    run(capsys, "relabel", folder, "part-00001", "--forget")
+    assert of_an_earlier_graph(folder) == ()
+    assert "This report shows an earlier graph" not in (folder / "report.html").read_text("utf-8")
+
+
+def test_a_correction_comes_with_its_graph(capsys, folder):
+    run(capsys, "relabel", folder, "part-00001", "--as", "Tank/tank", "--this-only", "--no-report")
+    assert len(read_corrections(folder)) == 1
+    assert not behind(folder)
+    (folder / "corrections.json").unlink()
+    assert "corrections.json: not what this graph shows" in run(capsys, "show", folder)[1]
+
+
+def test_what_goes_with_the_earlier_graph_is_named(capsys, folder):
+    run(capsys, "simulate", folder)
+    assert {"simulation.usda", "devices.json"} <= manifest_in(folder).files.keys()
+    assert of_an_earlier_graph(folder) == ()
+    _, out, _ = run(capsys, "build", folder.parent / "plant.usda", "-o", folder, "--no-report")
+    assert not (folder / "simulation.usda").exists()
+    assert "simulation.usda, devices.json: of the earlier graph, removed; 'cadgraph simulate' makes it anew" in out
+
+
+def test_a_graph_of_another_build_is_refused_in_one_line(capsys, folder, tmp_path):
+    other = write_blocks(tmp_path / "other.usda", 3)
+    run(capsys, "build", other, "-o", tmp_path / "other", "--no-report")
+    shutil.copy(tmp_path / "other" / "graph.json", folder / "graph.json")
+    for words in (
+        ("show", folder),
+        ("export", folder, "--to", "csv"),
+        ("relabel", folder, "part-00001", "--as", "tee"),
+    ):
+        assert "graph.json: not what cadgraph wrote with the other files here" in refused(capsys, *words)
+    shutil.copy(tmp_path / "other" / "manifest.json", folder / "manifest.json")
+    _, out, _ = run(capsys, "show", folder)
+    assert "semantics.usda, timings.json: changed or taken away since it was written" in out
+    (folder / "manifest.json").unlink()
+    assert SceneGraph.load(folder).source.n_meshes == 3
+
+
+def test_exports_of_several_files_come_together_or_not_at_all(capsys, folder, monkeypatch):
+    from cadgraph.export import tables
+
+    real, written = tables.write_atomically, []
+
+    def failing(path, content):
+        written.append(path)
+        if len(written) == 3:
+            raise OSError(28, "No space left on device", str(path))
+        real(path, content)
+
+    before = digests(folder)
+    monkeypatch.setattr(tables, "write_atomically", failing)
+    assert "No space left" in refused(capsys, "export", folder, "--to", "csv")
+    assert len(written) == 3
+    assert digests(folder) == before
+    monkeypatch.undo()
+    assert run(capsys, "export", folder, "--to", "csv")[0] == 0
+    assert len(list(folder.glob("*.csv"))) > 3
+
+
+def test_a_report_says_once_that_it_is_earlier_and_nothing_when_it_is_not():
+    page = b"<!doctype html>\n<html><body>\n<main>x</main></body></html>"
+    marked = marked_as_earlier(page, True)
+    assert b"<body>\n<p id=" in marked
+    assert marked_as_earlier(marked, True) == marked
+    assert marked_as_earlier(marked, False) == page
+    assert marked_as_earlier(page, False) == page
+    assert b"shows an earlier graph" in marked_as_earlier(b"no page of ours", True)
