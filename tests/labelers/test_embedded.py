@@ -9,6 +9,7 @@ from scipy.spatial.transform import Rotation
 import shapes
 from cadgraph.errors import LabelError
 from cadgraph.geometry.mesh.properties import measure
+from cadgraph.labelers.embedded import classifier
 from cadgraph.labelers.embedded.classifier import Classifier, aggregate
 from cadgraph.labelers.embedded.features import observe
 from cadgraph.labelers.embedded.labeler import EmbeddedLabeler, judge, spread
@@ -272,3 +273,22 @@ def test_company_in_words():
     assert describe_company([None], 1) == "touches nothing known"
     words = describe_company(["flange", "flange", "bolt", None], 8)
     assert words == "touches 2 flanges, 1 bolt; one of 8 alike on one part"
+
+
+@pytest.mark.parametrize("rows", [1, 7, 50])
+def test_parts_looked_at_some_at_a_time_score_as_all_at_once(monkeypatch, rows):
+    rng = np.random.default_rng(5)
+    width, inputs, ends, n = 6, 9, 4, 50
+    shapes = {
+        "mean": (inputs,), "side_mean": (ends,), "w0": (inputs, width), "b0": (width,), "w1": (width, width),
+        "b1": (width,), "give0": (width, width), "side0": (ends, width), "take0": (width, width), "talk_b0": (width,),
+        "join0": (3 * width, width), "join_b0": (width,), "out": (width, 3), "out_b": (3,),
+    }  # fmt: skip
+    weights = {name: rng.normal(size=shape) for name, shape in shapes.items()}
+    network = classifier.Classifier({**weights, "spread": np.ones(inputs), "side_spread": np.ones(ends)}, 1)
+    # Some parts touch nothing.
+    here = np.sort(rng.choice(np.arange(0, n, 2), 60))
+    given = rng.normal(size=(n, inputs)), rng.normal(size=(60, ends)), here, rng.integers(0, n, 60)
+    whole = network.scores(*given)
+    monkeypatch.setattr(classifier, "_ROWS", rows)
+    np.testing.assert_allclose(network.scores(*given), whole, rtol=1e-12, atol=1e-12)

@@ -18,12 +18,15 @@ from pathlib import Path
 
 from _timing import machine
 
+from cadgraph.config import LoadConfig
 from cadgraph.errors import LoadError
 from cadgraph.load import load
 from cadgraph.load.step_damage import named_in
 from cadlab.markdown import head, row
 
 _FACE = re.compile(rb"(ADVANCED_FACE\s*\(\s*'[^']*'\s*,\s*\([^)]*\)\s*,\s*)#\d+")
+_OUTCOMES = ("told", "refused", "stopped", "silent")
+_PATIENCE = 60.0  # s; users have load.timeout, ten minutes by default
 _SHARE = 0.2  # of the places of a kind that are spoilt
 
 
@@ -42,9 +45,24 @@ def main() -> None:
         refused += said[0] == "refused"
     sys.stdout.write(f"{len(files)} sound files, {faces:,} faces: called damaged {told}, refused {refused}\n\n")
     largest = max(files, key=lambda file: file.stat().st_size)
-    sys.stdout.write("\n".join(head(("damage", "copies", "told", "refused", "silent", "faces missing, in all"))) + "\n")
+    sys.stdout.write(
+        "\n".join(
+            head(
+                (
+                    "damage",
+                    "copies",
+                    "told",
+                    "refused",
+                    f"stopped after {_PATIENCE:.0f} s",
+                    "silent",
+                    "faces missing, in all",
+                )
+            )
+        )
+        + "\n"
+    )
     for name, spoil in _WAYS.items():
-        counts = {"told": 0, "refused": 0, "silent": 0}
+        counts = dict.fromkeys(_OUTCOMES, 0)
         missing = 0
         for seed in range(given.copies):
             with tempfile.TemporaryDirectory() as place:
@@ -53,17 +71,17 @@ def main() -> None:
                 outcome, lost = _said(copy)
             counts[outcome] += 1
             missing += lost
-        sys.stdout.write(f"{row((name, given.copies, counts['told'], counts['refused'], counts['silent'], missing))}\n")
+        sys.stdout.write(f"{row((name, given.copies, *counts.values(), missing))}\n")
         sys.stdout.flush()
     sys.stdout.write(f"\n{machine()}.\n")
 
 
 def _said(file: Path) -> tuple[str, int]:
-    """What is said of a file: told (with how many faces are missing), refused, or silent."""
+    """What is said of a file: told (with how many faces are missing), refused, stopped, or silent."""
     try:
-        scene = load(file)
-    except LoadError:
-        return "refused", 0
+        scene = load(file, LoadConfig(timeout=_PATIENCE))
+    except LoadError as error:
+        return "stopped" if "took longer" in str(error) else "refused", 0
     notes = [note.message for note in scene.diagnostics if note.code == "damaged-source"]
     if not notes:
         return "silent", 0

@@ -83,7 +83,7 @@ def build(
     if use_metadata:
         chosen = chosen.replace(USE_METADATA)
     before, chosen = chosen, asking.settings(chosen)
-    with bars() as progress:
+    with bars(() if report else ("draw report",)) as progress:
         labeler = asking.labeler(chosen, output, progress)
         outcome = run(
             scene,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any
 
@@ -12,11 +12,13 @@ import typer
 from rich.console import Console, ConsoleOptions, ConsoleRenderable, RenderHook, RenderResult
 from rich.control import Control
 from rich.markup import escape
-from rich.progress import BarColumn, Progress, TaskID, TextColumn, TimeElapsedColumn
+from rich.progress import BarColumn, Progress, ProgressColumn, Task, TaskID, TextColumn, TimeElapsedColumn
 from rich.segment import Segment
+from rich.text import Text
 
 from cadgraph._io.progress import quiet
 from cadgraph._io.text import harmless
+from cadgraph.cli.remaining import Remaining, told
 
 __all__ = [
     "bars", "err", "note_line", "out", "say", "say_json", "summary_lines", "tell", "tell_next", "tell_state",
@@ -78,26 +80,48 @@ def say_json(values: Any) -> None:
 
 
 @contextmanager
-def bars() -> Iterator[Any]:
-    """A progress bar for each stage; nothing where nobody looks at a terminal."""
+def bars(without: Collection[str] = ()) -> Iterator[Any]:
+    """A progress bar for each stage, and how long the whole still takes; nothing where nobody looks at a terminal.
+
+    Args:
+        without: stages that don't come in this run.
+    """
     if not err.is_terminal:
         yield quiet
         return
-    columns = (TextColumn("{task.description:<14}"), BarColumn(), TimeElapsedColumn())
+    remaining = Remaining(without)
+    columns = (TextColumn("{task.description:<14}"), BarColumn(), TimeElapsedColumn(), _Left(remaining))
     with Progress(*columns, console=err) as bars:
-        yield _Told(bars)
+        yield _Told(bars, remaining)
+
+
+class _Left(ProgressColumn):
+    """What is left of the whole, beside the stage at work."""
+
+    def __init__(self, remaining: Remaining) -> None:
+        super().__init__()
+        self._remaining = remaining
+
+    def render(self, task: Task) -> Text:
+        """The words for one bar."""
+        if task.finished:
+            return Text("")
+        share = self._remaining.share
+        whole = f"{share:.0%} of all, {told(self._remaining.seconds)}" if self._remaining.seconds is not None else ""
+        return Text(whole, style="dim")
 
 
 class _Told:
     """Moves the bars, and takes them away for a while where something has to be asked."""
 
-    def __init__(self, bars: Progress) -> None:
-        self._bars = bars
+    def __init__(self, bars: Progress, remaining: Remaining) -> None:
+        self._bars, self._remaining = bars, remaining
         self._tasks: dict[str, TaskID] = {}
 
     def __call__(self, stage: str, share: float) -> None:
         if stage not in self._tasks:
             self._tasks[stage] = self._bars.add_task(stage, total=1.0)
+        self._remaining(stage, share)
         self._bars.update(self._tasks[stage], completed=share)
 
     @contextmanager

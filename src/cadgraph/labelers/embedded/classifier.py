@@ -5,8 +5,9 @@ Plain matrix products, so that nothing but numpy is needed to run it. Training i
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -14,6 +15,7 @@ from cadgraph.model.scene import Floats, Ints
 
 __all__ = ["LIMIT", "Classifier", "aggregate"]
 
+_ROWS = 16_384  # parts that are looked at at once
 LIMIT = 6.0
 """Standardised inputs are cut off here: what lies farther out was never seen in training."""
 
@@ -46,14 +48,22 @@ class Classifier:
             ``(n_parts, n_classes)``.
         """
         w = self.weights
-        s = np.clip((sides - w["side_mean"]) / w["side_spread"], -LIMIT, LIMIT)
         h = self.hidden(inputs)
         for k in range(self.rounds):
-            said = _relu((h @ w[f"give{k}"])[there] + s @ w[f"side{k}"] + (h @ w[f"take{k}"])[here] + w[f"talk_b{k}"])
-            heard = aggregate(said, here, len(h))
-            h = h + _relu(np.hstack([h, heard]) @ w[f"join{k}"] + w[f"join_b{k}"])
-        scores: Floats = h @ w["out"] + w["out_b"]
-        return scores
+            given = h @ w[f"give{k}"]
+            h = _by_rows(len(h), partial(self._talk, k, h, given, sides, here, there))
+        return _by_rows(len(h), lambda some: h[some] @ w["out"] + w["out_b"])
+
+    def _talk(self, k: int, h: Floats, given: Floats, sides: Floats, here: Ints, there: Ints, some: slice) -> Floats:
+        """What some parts come to in a round of talk; ``given`` is what each part says to all of its neighbours."""
+        w, own = self.weights, h[some]
+        among = slice(*np.searchsorted(here, [some.start, some.start + len(own)]).tolist())
+        s = np.clip((sides[among] - w["side_mean"]) / w["side_spread"], -LIMIT, LIMIT)
+        hearer = here[among] - some.start
+        said = _relu(given[there[among]] + s @ w[f"side{k}"] + (own @ w[f"take{k}"])[hearer] + w[f"talk_b{k}"])
+        heard = aggregate(said, hearer, len(own))
+        talked: Floats = own + _relu(np.hstack([own, heard]) @ w[f"join{k}"] + w[f"join_b{k}"])
+        return talked
 
     def hidden(self, inputs: Floats) -> Floats:
         """What the look at each part by itself comes to, before neighbours talk, ``(n_parts, width)``, not negative.
@@ -61,9 +71,19 @@ class Classifier:
         Args:
             inputs: as for ``scores``.
         """
+        return _by_rows(len(inputs), lambda some: self._look(inputs[some]))
+
+    def _look(self, inputs: Floats) -> Floats:
         w = self.weights
         x = np.clip((inputs - w["mean"]) / w["spread"], -LIMIT, LIMIT)
         return _relu(_relu(x @ w["w0"] + w["b0"]) @ w["w1"] + w["b1"])
+
+
+def _by_rows(n: int, act: Callable[[slice], Floats]) -> Floats:
+    """What some rows at a time come to, one below the other: all at once would take memory by the number of parts."""
+    if n <= _ROWS:
+        return act(slice(0, n))
+    return np.concatenate([act(slice(start, min(start + _ROWS, n))) for start in range(0, n, _ROWS)])
 
 
 def aggregate(said: Floats, here: Ints, n: int) -> Floats:
