@@ -50,15 +50,16 @@ def unpack_facts(arrays: Mapping[str, npt.NDArray[Any]]) -> list[Facts]:
         KeyError, ValueError, IndexError: an array is missing, or too short.
     """
     n = len(arrays["low"])
-    ragged = {name: _split(arrays[f"{name}_rows"], arrays[f"{name}_count"]) for name in _RAGGED}
-    discs, ports = ({"discs": _discs(arrays, "discs")}["discs"], _discs(arrays, "ports"))
-    numbers = {name: arrays[name].tolist() for name in (*_NUMBERS, *_COUNTS)}
+    rows: dict[str, list[Any]] = {name: [np.ascontiguousarray(row) for row in arrays[name]] for name in _POINTS}
+    ragged: dict[str, list[Any]] = {name: _split(arrays[f"{name}_rows"], arrays[f"{name}_count"]) for name in _RAGGED}
+    discs, ports = _discs(arrays, "discs"), _discs(arrays, "ports")
+    numbers: dict[str, list[Any]] = {name: arrays[name].tolist() for name in (*_NUMBERS, *_COUNTS)}
     return [
         Facts(
             discs=discs[i],
             ports=ports[i],
-            **{name: np.ascontiguousarray(arrays[name][i]) for name in _POINTS},
-            **{name: ragged[name][i] for name in _RAGGED},
+            **{name: values[i] for name, values in rows.items()},
+            **{name: values[i] for name, values in ragged.items()},
             **{name: values[i] for name, values in numbers.items()},
         )
         for i in range(n)

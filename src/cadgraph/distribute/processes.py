@@ -17,7 +17,7 @@ from cadgraph.geometry.kernels.parallel import use_threads
 __all__ = ["Processes"]
 
 _TRIES = 3  # of a call whose process ends
-_ENDED = "its process ended, and did so each time it was tried again; give it more memory, or fewer --workers"
+_ENDED = "its process ended each time it was tried; for want of memory give fewer --workers, or more --tiles"
 
 
 class Processes:

@@ -1,7 +1,7 @@
 """The run folder: what tasks read and what they write, as plain arrays in files that several processes can share.
 
-Arrays are ``.npy`` files that are mapped into memory, so that a process reads of a site what its task touches. Nothing in
-these files can run when it is read.
+Arrays are ``.npy`` files that are mapped into memory, so that a process reads of a site what its task touches.
+Nothing in these files can run when it is read.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ import zipfile
 import zlib
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import numpy.typing as npt
@@ -25,7 +25,16 @@ from cadgraph.errors import FormatError
 from cadgraph.model.parts import Properties
 from cadgraph.model.scene import MeshArrays, Placement, Scene
 
-__all__ = ["Arrays", "digest_of", "open_arrays", "open_scene", "read_result", "save_arrays", "scene_arrays", "write_result"]
+__all__ = [
+    "Arrays",
+    "digest_of",
+    "open_arrays",
+    "open_scene",
+    "read_result",
+    "save_arrays",
+    "scene_arrays",
+    "write_result",
+]
 
 Arrays = Mapping[str, npt.NDArray[Any]]
 
@@ -56,10 +65,10 @@ def open_scene(arrays: Arrays) -> tuple[Scene, Properties | None]:
     if "placement_shape" in arrays:
         placement = Placement(*(arrays[f"placement_{name}"] for name in ("shape", "turn", "shift")))
     n = meshes.n if placement is None else len(placement.shape)
-    scene = Scene(
-        meshes, tuple(map(str, range(n))), np.broadcast_to(np.float32(np.nan), (n, 3)), placement=placement
-    )
-    measured = {name: arrays[f"measured_{name}"] for name in Properties.__dataclass_fields__ if f"measured_{name}" in arrays}
+    scene = Scene(meshes, tuple(map(str, range(n))), np.broadcast_to(np.float32(np.nan), (n, 3)), placement=placement)
+    measured = {
+        name: arrays[f"measured_{name}"] for name in Properties.__dataclass_fields__ if f"measured_{name}" in arrays
+    }
     return scene, Properties(**measured) if measured else None
 
 
@@ -69,7 +78,7 @@ def digest_of(arrays: Arrays, *words: object) -> str:
     for name in sorted(arrays):
         array = np.ascontiguousarray(arrays[name])
         digest.update(f"{name} {array.dtype.str} {array.shape}".encode())
-        digest.update(memoryview(array.reshape(-1)).cast("B") if array.size else b"")
+        digest.update(array.reshape(-1).view(np.uint8).data)
     return digest.hexdigest()
 
 
@@ -101,7 +110,7 @@ def open_arrays(folder: Path) -> dict[str, npt.NDArray[Any]]:
             with file.open("rb") as opened:
                 shape, _, _ = check_array(opened, file.stat().st_size, file.name)
             # What holds nothing can't be mapped.
-            mode = None if 0 in shape else "r"
+            mode: Literal["r"] | None = None if 0 in shape else "r"
             arrays[file.stem] = np.asarray(np.load(file, mmap_mode=mode, allow_pickle=False))
         except (OSError, ValueError, EOFError) as error:
             raise FormatError(f"{file}: damaged ({error}); remove the folder, then build again") from error
