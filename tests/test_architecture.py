@@ -28,6 +28,7 @@ MAY_IMPORT = {
     "stages": {"_io", "config", "errors", "facts", "geometry", "model"},
     "draw.render": {"_io", "errors", "geometry", "model"},
     "labelers": {"_io", "config", "draw.render", "errors", "facts", "geometry", "model"},
+    "distribute": {"_io", "errors", "geometry", "model"},
     "pipeline": {"_io", "config", "errors", "facts", "geometry", "labelers", "model", "stages"},
     "query": {"_io", "errors", "model"},
     "plans": {"_io", "errors", "model", "query"},
@@ -59,7 +60,19 @@ MAY_IMPORT = {
     "simulate.play": {"_io", "errors", "geometry", "hydraulics", "model", "query", *("draw.colors", "draw.render")},
     "simulate.tasks": {"_io", "errors", "geometry", "hydraulics", "model", "query"},
     "session": {
-        *("_io", "config", "errors", "geometry", "labelers", "load", "model", "pipeline", "query", "stages"),
+        *(
+            "_io",
+            "config",
+            "distribute",
+            "errors",
+            "geometry",
+            "labelers",
+            "load",
+            "model",
+            "pipeline",
+            "query",
+            "stages",
+        ),
         *("draw.report", "export"),
     },
     "serve": {

@@ -12,12 +12,14 @@ from cadgraph.config import Config
 from cadgraph.facts.statements import places_of, statements_of
 from cadgraph.facts.words import read_words
 from cadgraph.geometry.mesh.properties import measure
+from cadgraph.geometry.shape.analysis import measure_shapes_by
 from cadgraph.labelers.base import Labeler, label_parts
 from cadgraph.labelers.precedence import SettledLabels, settle_labels
 from cadgraph.labelers.registry import labeler_of
 from cadgraph.model.analysis import Analysis
 from cadgraph.model.anchors import anchored_meshes, anchored_parts
 from cadgraph.model.catalog import read_catalog
+from cadgraph.model.crew import Crew
 from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.edits import LOST, Edit, Ground, meshes_of, tell_lost
 from cadgraph.model.given_labels import GivenLabel
@@ -70,6 +72,7 @@ def build(
     labeler: Labeler | None = None,
     corrections: Sequence[Edit] = (),
     progress: Progress = quiet,
+    crew: Crew | None = None,
 ) -> SceneGraph:
     """Turns a scene into a scene graph (paper, section III).
 
@@ -81,6 +84,7 @@ def build(
         labeler: another labeler than the one that is set.
         corrections: a user's that are in force; those of labels spread to parts alike.
         progress: called with the name of a stage and the share of it that is done.
+        crew: does the costly steps of the analysis in place of this process; the graph is the same.
 
     Returns:
         The graph; the same scene and settings give the same graph to the byte.
@@ -95,7 +99,7 @@ def build(
     if not isinstance(config, Config):
         raise TypeError(f"build takes a Config, not {type(config).__name__}")
     catalogs = [read_catalog(file) for file in config.label.catalogs]
-    analysis = lay_ground(analyse(scene, config, progress), corrections, config)
+    analysis = lay_ground(analyse(scene, config, progress, crew), corrections, config)
     progress("label", 0)
     labeling = label_parts(labeler or labeler_of(config.label), analysis.parts, analysis.contacts, tree, config.label)
     settled = settle_labels(
@@ -104,13 +108,16 @@ def build(
     return interpret(analysis, settled, tree, config, progress, edits=corrections)
 
 
-def analyse(scene: Scene, config: Config | None = None, progress: Progress = quiet) -> Analysis:
+def analyse(
+    scene: Scene, config: Config | None = None, progress: Progress = quiet, crew: Crew | None = None
+) -> Analysis:
     """What geometry alone says of a scene: parts, contacts, structures.
 
     Args:
         scene: what ``load`` returned; it is not changed.
         config: those of ``ANALYSIS_SETTINGS`` count; the defaults if None.
         progress: called with the name of a stage and the share of it that is done.
+        crew: does the costly steps in place of this process; the analysis is the same.
 
     Raises:
         ValueError: a setting names a mesh that is not in the scene, or the scene's arrays don't fit together.
@@ -121,12 +128,16 @@ def analyse(scene: Scene, config: Config | None = None, progress: Progress = qui
     config = config or Config()
     scene, from_scene = prepare_scene(scene)
     progress("measure", 0)
-    scene, properties, from_meshes = inspect_meshes(scene, measure(scene), config.inspect)
+    scene, properties, from_meshes = inspect_meshes(scene, measure(scene), config.inspect, progress, crew)
     ground = find_ground(scene, properties, config.ground)
     progress("contacts", 0)
-    near = find_near_meshes(scene, max(config.cluster.eps, config.group.proximity), config, progress)
+    limit = max(config.cluster.eps, config.group.proximity)
+    near = find_near_meshes(scene, properties, limit, config, progress, crew)
     seen = _Seen(scene, properties, near, ground, (*scene.diagnostics, *from_scene, *from_meshes))
-    return _structured(seen, ground, config, progress)
+    analysis = _structured(seen, ground, config, progress)
+    if crew is not None:
+        measure_shapes_by(crew.facts, analysis.parts)
+    return analysis
 
 
 @dataclass(frozen=True, eq=False)

@@ -67,6 +67,12 @@ def build(
     config: ConfigOption = None,
     settings: SetOption = None,
     report: Annotated[bool, typer.Option("--report/--no-report", help="Draw pictures and write report.html.")] = True,
+    workers: Annotated[
+        int, typer.Option("--workers", min=1, help="Processes that share the analysis of a big site, tile by tile.")
+    ] = 1,
+    tiles: Annotated[
+        int | None, typer.Option("--tiles", min=1, help="Tiles that the site is cut into; by its size if not given.")
+    ] = None,
 ) -> None:
     """Turn a CAD scene into a scene graph, a USD label layer and a report."""
     from cadgraph.session.run import run
@@ -94,6 +100,8 @@ def build(
             labeler=labeler,
             report=report,
             progress=progress,
+            workers=workers,
+            tiles=tiles,
         )
     tell(outcome)
     asking.tell(labeler, outcome.graph)

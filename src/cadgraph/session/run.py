@@ -14,9 +14,11 @@ from cadgraph._io.progress import Progress, quiet
 from cadgraph._io.results import NewResults, new_results
 from cadgraph._io.run_folder import refuse_to_overwrite, results_folder
 from cadgraph.config import Config
+from cadgraph.distribute.site import crew_of_processes
 from cadgraph.labelers.base import AskingLabeler, Labeler
 from cadgraph.load import load
 from cadgraph.model.corrections import CorrectionsFile
+from cadgraph.model.crew import Crew
 from cadgraph.model.given_labels import GivenLabel, read_labels
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.scene import Scene
@@ -72,6 +74,8 @@ def run(
     labeler: Labeler | None = None,
     report: bool = True,
     progress: Progress = quiet,
+    workers: int = 1,
+    tiles: int | None = None,
 ) -> Outcome:
     """Reads a scene, builds its graph, and writes ``graph.json``, ``semantics.usda``, ``report.html`` and pictures.
 
@@ -90,18 +94,23 @@ def run(
         labeler: another labeler than the one that is set.
         report: whether to draw pictures and write the report.
         progress: called with the name of a stage and the share of it that is done.
+        workers: processes that share the costly steps of the analysis, tile by tile; the graph is the same to the byte.
+            What they have found lies in the folder until the run is over, so that one that was stopped goes on there.
+            In a script that asks for more than one, keep your own work under ``if __name__ == "__main__":``.
+        tiles: that the site is cut into; by its size and the workers if None. Either more than one of them makes tiles.
 
     Raises:
+        ValueError: ``workers`` or ``tiles`` is below 1.
         LoadError: the scene can't be read.
         LabelError: labels or vocabulary can't be used.
         OutputError: the folder can't be written, or a result would take the place of a file that isn't ours.
     """
     config = config or Config()
     clock = Clock(progress)
-    with results_folder(folder) as target:
+    with results_folder(folder) as target, crew_of_processes(target, workers, tiles) as crew:
         tree = vocabulary if isinstance(vocabulary, Vocabulary) else _tree(vocabulary)
         given = read_labels(labels, tree) if isinstance(labels, str | Path) else labels or ()
-        session = begin(source, target, config, given, tree, labeler, clock)
+        session = begin(source, target, config, given, tree, labeler, clock, crew=crew)
         if isinstance(labeler, AskingLabeler) and labeler.only_asks and (target / "graph.json").exists():
             clock("", 1)
             return Outcome(SceneGraph.load(target), {}, clock.seconds)
@@ -118,6 +127,7 @@ def begin(
     progress: Progress = quiet,
     *,
     keep: bool = False,
+    crew: Crew | None = None,
 ) -> Session:
     """A session on a scene that is read anew, with the corrections that lie in a folder; nothing is written yet.
 
@@ -130,6 +140,7 @@ def begin(
         labeler: another labeler than the one that is set.
         progress: called with the name of a stage and the share of it that is done.
         keep: whether each correction is written into the folder at once, before the session says that it is done.
+        crew: does the costly steps of the analysis in place of this process.
 
     Raises:
         LoadError: the scene can't be read.
@@ -152,6 +163,7 @@ def begin(
         history=history,
         file=file if keep else None,
         progress=progress,
+        crew=crew,
     )
 
 

@@ -20,6 +20,7 @@ from cadgraph.labelers.registry import labeler_of
 from cadgraph.model.analysis import Analysis
 from cadgraph.model.catalog import read_catalog
 from cadgraph.model.corrections import CorrectionsFile, History
+from cadgraph.model.crew import Crew
 from cadgraph.model.edits import LOST, Correction, Edit, Tag, tell_lost
 from cadgraph.model.given_labels import GivenLabel
 from cadgraph.model.graph import SceneGraph
@@ -125,11 +126,12 @@ class Session:
         history: History | None = None,
         file: CorrectionsFile | None = None,
         progress: Progress = quiet,
+        crew: Crew | None = None,
     ) -> Session:
         """Analyses a scene and asks a labeler about its parts; see ``cadgraph.build`` for arguments and errors."""
         config, tree = config or Config(), vocabulary or default_vocabulary()
         history = History.of(corrections) if history is None else history
-        analysis = lay_ground(analyse(scene, config, progress), history.in_force, config)
+        analysis = lay_ground(analyse(scene, config, progress, crew), history.in_force, config)
         progress("label", 0)
         labeler = labeler or labeler_of(config.label)
         if isinstance(labeler, AskingLabeler):

@@ -8,16 +8,33 @@ from cadgraph._io.progress import Progress, quiet
 from cadgraph.config import Config
 from cadgraph.geometry.contact.pairs import find_contacts
 from cadgraph.geometry.contact.points import find_point_contacts, sample_surface
-from cadgraph.model.parts import Contacts
+from cadgraph.model.crew import Crew
+from cadgraph.model.parts import Contacts, Properties
 from cadgraph.model.scene import Ints, Scene
 
 __all__ = ["find_near_meshes", "join_contacts"]
 
 
-def find_near_meshes(scene: Scene, limit: float, config: Config, progress: Progress = quiet) -> Contacts:
-    """All pairs of meshes at most ``limit`` apart [m], decided by the method that is set."""
+def find_near_meshes(
+    scene: Scene,
+    properties: Properties,
+    limit: float,
+    config: Config,
+    progress: Progress = quiet,
+    crew: Crew | None = None,
+) -> Contacts:
+    """All pairs of meshes at most ``limit`` apart [m], decided by the method that is set.
+
+    Args:
+        scene: all meshes.
+        properties: of each.
+        limit: greatest distance [m].
+        config: says which method.
+        progress: called with the share that is done.
+        crew: does the exact method's work in place of this process.
+    """
     if config.method == "exact":
-        return find_contacts(scene, limit)
+        return find_contacts(scene, limit) if crew is None else crew.contacts(scene, properties, limit, progress)
     surface = sample_surface(scene, config.preprocess.voxel, config.preprocess.spacing)
     return find_point_contacts(surface, limit, progress)
 

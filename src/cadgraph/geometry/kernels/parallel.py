@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from cadgraph.model.scene import Ints
 
-__all__ = ["ZERO", "compiled", "for_ranges", "readable"]
+__all__ = ["ZERO", "compiled", "for_ranges", "readable", "use_threads"]
 
 _F = TypeVar("_F", bound=Callable[..., Any])
 _T = TypeVar("_T", bound=np.generic)
@@ -27,6 +27,20 @@ ZERO: Any = np.int64(0)
 
 # More ranges than threads, so that a thread that drew light ones takes another.
 _RANGES_PER_WORKER = 8
+
+_threads: int | None = None  # of this process; None: as many as there are processors
+
+
+def use_threads(n: int | None) -> None:
+    """Sets how many threads kernels use in this process where their caller doesn't say.
+
+    For processes that share a machine with others of their kind: each takes its part of the processors.
+
+    Args:
+        n: at least 1; None: all processors.
+    """
+    global _threads
+    _threads = n
 
 
 def compiled(function: _F) -> _F:
@@ -89,7 +103,7 @@ def for_ranges(kernel: Callable[[int, int], object], weights: Ints, workers: int
         ValueError: ``workers`` is below 1.
     """
     n = len(weights)
-    n_workers = workers if workers is not None else os.cpu_count() or 1
+    n_workers = workers if workers is not None else _threads or os.cpu_count() or 1
     if n_workers < 1:
         raise ValueError(f"workers is {n_workers}; give at least 1")
     if n == 0:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
+
 import numpy as np
 
 from cadgraph.geometry.kernels.gather import gather_chunks
@@ -9,30 +11,39 @@ from cadgraph.geometry.shape.repeats import Shapes, find_shapes
 from cadgraph.geometry.shape.round_faces import find_discs, find_ports, same_line
 from cadgraph.geometry.shape.surface import LEVELS, Surface, find_surfaces
 from cadgraph.geometry.shape.turning import find_profile, find_wheel, look_along
-from cadgraph.model.derived import kept_with
+from cadgraph.model.derived import kept_with, store_of
 from cadgraph.model.parts import Parts, Properties
 from cadgraph.model.scene import Floats, Ints, Scene
 from cadgraph.model.shapes import Disc, Facts, ShapeAnalysis, is_round
 
-__all__ = ["analyse_shapes", "measure_shapes", "shapes_of"]
+__all__ = ["CHUNK", "analyse_shapes", "measure_shapes", "measure_shapes_by", "shapes_of"]
 
-_CHUNK = 32  # shapes that a thread takes at a time
+CHUNK = 32
+"""Shapes that are measured at a time; the last digits of a measure depend on what else is in its chunk."""
+
+_AHEAD = "shapes measured ahead"
 _TUBE_ERROR = 0.12  # a tube's volume, area and end faces agree this well; mitred bends are a few per cent off
 # Faces run along a side of the box, or across it, where their normals are off by less than this. Of a constant section
 # nearly all of the area does one of the two, and what lies across is at either end, within this share of the length.
 _STRAIGHT, _NEARLY_ALL, _AT_END = 0.02, 0.99, 0.01
 
+Measure = Callable[[Scene, Properties], Sequence[Facts]]
+"""What does the work of ``measure_shapes``."""
 
-def analyse_shapes(scene: Scene, properties: Properties, shapes: Shapes | None = None) -> ShapeAnalysis:
+
+def analyse_shapes(
+    scene: Scene, properties: Properties, shapes: Shapes | None = None, measure: Measure | None = None
+) -> ShapeAnalysis:
     """Measures each distinct shape of a scene.
 
     Args:
         scene: any.
         properties: of its meshes.
         shapes: which of its meshes repeat each other; found here if None.
+        measure: stands in for ``measure_shapes``.
     """
     shapes = shapes or find_shapes(scene, properties)
-    facts = measure_shapes(scene.select(shapes.first), properties.select(shapes.first))
+    facts = (measure or measure_shapes)(scene.select(shapes.first), properties.select(shapes.first))
     return ShapeAnalysis(tuple(facts), shapes.first, shapes.shape, shapes.turn, shapes.shift)
 
 
@@ -41,9 +52,21 @@ def shapes_of(parts: Parts) -> ShapeAnalysis:
     return _shapes_of(parts.scene, parts.properties)
 
 
+def measure_shapes_by(measure: Measure, parts: Parts) -> None:
+    """Measures the shapes of parts ahead of the first question for them, for instance in several processes.
+
+    Args:
+        measure: does what ``measure_shapes`` does.
+        parts: of which ``shapes_of`` will be asked.
+    """
+    analysis = analyse_shapes(parts.scene, parts.properties, measure=measure)
+    store_of(parts.scene, _AHEAD)[id(parts.properties)] = (parts.properties, analysis)
+
+
 @kept_with
 def _shapes_of(scene: Scene, properties: Properties) -> ShapeAnalysis:
-    return analyse_shapes(scene, properties)
+    ahead = store_of(scene, _AHEAD).pop(id(properties), None)
+    return analyse_shapes(scene, properties) if ahead is None else ahead[1]
 
 
 def measure_shapes(scene: Scene, properties: Properties) -> list[Facts]:
@@ -57,7 +80,7 @@ def measure_shapes(scene: Scene, properties: Properties) -> list[Facts]:
     def measure(rows: Ints) -> list[Facts]:
         return _measure_some(scene.select(rows), properties.select(rows))
 
-    return [facts for some in gather_chunks(measure, np.diff(scene.face_offsets), _CHUNK) for facts in some]
+    return [facts for some in gather_chunks(measure, np.diff(scene.face_offsets), CHUNK) for facts in some]
 
 
 def _measure_some(scene: Scene, properties: Properties) -> list[Facts]:

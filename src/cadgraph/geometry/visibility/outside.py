@@ -18,7 +18,13 @@ _OFF = 1e-6
 _BATCH = 1 << 18  # sample points in hand at once: about 100 MB, however many meshes there are
 
 
-def find_visible(scene: Scene, properties: Properties, n_points: int = 64, n_directions: int = 64) -> Bools:
+def find_visible(
+    scene: Scene,
+    properties: Properties,
+    n_points: int = 64,
+    n_directions: int = 64,
+    rows: tuple[int, int] | None = None,
+) -> Bools:
     """Whether each mesh can be seen from anywhere outside the scene.
 
     A mesh is visible if from one of its sample points a ray gets out without meeting any surface, this mesh's own
@@ -30,15 +36,21 @@ def find_visible(scene: Scene, properties: Properties, n_points: int = 64, n_dir
         properties: of its meshes.
         n_points: sample points of each mesh, spread evenly over its area.
         n_directions: rays from each, spread evenly over the sphere.
+        rows: look at the meshes from the first up to the second only, amid all others; None: at all of them.
 
     Returns:
-        ``(n_meshes,)``; meshes without area are not visible.
+        ``(n_meshes,)``; meshes without area are not visible, nor are those that were not looked at.
     """
-    return visible_share(scene, properties, n_points, n_directions, first_only=True) > 0
+    return visible_share(scene, properties, n_points, n_directions, first_only=True, rows=rows) > 0
 
 
 def visible_share(
-    scene: Scene, properties: Properties, n_points: int = 64, n_directions: int = 64, first_only: bool = False
+    scene: Scene,
+    properties: Properties,
+    n_points: int = 64,
+    n_directions: int = 64,
+    first_only: bool = False,
+    rows: tuple[int, int] | None = None,
 ) -> Floats:
     """Share of the sample points of each mesh that can be seen from outside.
 
@@ -48,9 +60,10 @@ def visible_share(
         n_points: sample points of each mesh, spread evenly over its area.
         n_directions: rays from each, spread evenly over the sphere.
         first_only: stop for a mesh at its first visible point; the share is then only known to be above 0.
+        rows: look at the meshes from the first up to the second only, amid all others; None: at all of them.
 
     Returns:
-        ``(n_meshes,)`` 0..1; 0 for meshes without area.
+        ``(n_meshes,)`` 0..1; 0 for meshes without area, and for those that were not looked at.
     """
     from embreex import rtcore_scene
     from embreex.mesh_construction import TriangleMesh
@@ -79,12 +92,15 @@ def visible_share(
     TriangleMesh(world, local.astype(np.float32), corners.astype(np.int32))
     share = np.zeros(n)
     step = max(1, _BATCH // n_points)
-    for first in range(0, n, step):
+    start, stop = (0, n) if rows is None else rows
+    # Batches begin at the same meshes whichever are looked at: where points lie depends on what is in a batch.
+    for first in range(start - start % step, stop, step):
         last = min(first + step, n)
         own = slice(*np.searchsorted(owner, (first, last)))
         offsets = np.searchsorted(owner[own], np.arange(first, last + 1))
         samples = spread_points(local[corners[own]], offsets, n_points)
         with_area = np.flatnonzero(np.diff(offsets))
+        with_area = with_area[(with_area >= start - first) & (with_area < stop - first)]
         points, normals = (rows[with_area].reshape(-1, 3) for rows in (samples.points, samples.normals))
         mesh = np.repeat(with_area, n_points)
         seen = _seen(world, points, normals, mesh, 2 * _OFF * size, n_directions, first_only)

@@ -1,0 +1,49 @@
+"""What a crew works with: something that runs calls elsewhere, and says which of them failed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+__all__ = ["Call", "Failure", "Hands"]
+
+Call = tuple[Any, ...]
+"""The arguments of one call: names of files, numbers; never geometry."""
+
+
+@dataclass(frozen=True)
+class Failure:
+    """A call that came to nothing, though it was tried again.
+
+    Args:
+        reason: one line.
+        error: what it raised; None where its process ended instead.
+    """
+
+    reason: str
+    error: Exception | None = None
+
+
+class Hands(Protocol):
+    """Run calls of one function, each in a process that may end at any time, and again where one did."""
+
+    @property
+    def count(self) -> int:
+        """How many work at a time."""
+        ...
+
+    def run(
+        self, function: Callable[..., Any], calls: Sequence[Call], told: Callable[[float], None] | None = None
+    ) -> list[Any]:
+        """Runs calls.
+
+        Args:
+            function: of a module, so that another process finds it; the same call may be run twice.
+            calls: its arguments.
+            told: called with the share that is done.
+
+        Returns:
+            What each call returned, or its ``Failure``, in the order of the calls.
+        """
+        ...

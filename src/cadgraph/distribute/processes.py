@@ -1,0 +1,122 @@
+"""Calls in processes of this machine; one that is killed costs its calls another try, not the run."""
+
+from __future__ import annotations
+
+import os
+import signal
+import threading
+from collections.abc import Callable, Sequence
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from concurrent.futures.process import BrokenProcessPool
+from multiprocessing import get_context, parent_process
+from typing import Any
+
+from cadgraph.distribute.hands import Call, Failure
+from cadgraph.geometry.kernels.parallel import use_threads
+
+__all__ = ["Processes"]
+
+_TRIES = 3  # of a call whose process ends
+_ENDED = "its process ended each time it was tried; for want of memory give fewer --workers, or more --tiles"
+
+
+class Processes:
+    """Runs calls in processes of this machine. Use it as a context: on its end they are gone.
+
+    A script that uses it must keep its own work under ``if __name__ == "__main__":``, as each process imports it.
+
+    Args:
+        workers: processes.
+        threads: that kernels use in each; None: the processors divided among them.
+    """
+
+    def __init__(self, workers: int, threads: int | None = None) -> None:
+        if workers < 1:
+            raise ValueError(f"workers is {workers}; give at least 1")
+        self._workers = workers
+        self._threads = threads or max(1, (os.cpu_count() or 1) // workers)
+        self._pool: ProcessPoolExecutor | None = None
+
+    def __enter__(self) -> Processes:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._drop()
+
+    @property
+    def count(self) -> int:
+        """How many work at a time."""
+        return self._workers
+
+    def run(
+        self, function: Callable[..., Any], calls: Sequence[Call], told: Callable[[float], None] | None = None
+    ) -> list[Any]:
+        """Runs calls; see ``Hands.run``."""
+        results: dict[int, Any] = {}
+        waiting = list(range(len(calls)))
+        for attempt in range(_TRIES):
+            if not waiting:
+                break
+            # Which call ends a process can't be told while several run; the last time each has one for itself.
+            groups = [[number] for number in waiting] if attempt == _TRIES - 1 else [waiting]
+            for group in groups:
+                self._try(function, calls, group, results, told)
+            waiting = [number for number in waiting if number not in results]
+        return [results.get(number, Failure(_ENDED)) for number in range(len(calls))]
+
+    def _try(
+        self,
+        function: Callable[..., Any],
+        calls: Sequence[Call],
+        numbers: Sequence[int],
+        results: dict[int, Any],
+        told: Callable[[float], None] | None,
+    ) -> None:
+        """Runs some of the calls; those are without a result whose process ended."""
+        try:
+            pool = self._running()
+            futures = {pool.submit(function, *calls[number]): number for number in numbers}
+        except BrokenProcessPool:
+            self._drop()
+            return
+        broken = False
+        for future in as_completed(futures):
+            try:
+                results[futures[future]] = future.result()
+            except BrokenProcessPool:
+                broken = True
+                continue
+            except Exception as error:  # noqa: BLE001 - whatever a call raises is its result
+                results[futures[future]] = Failure(str(error) or type(error).__name__, error)
+            if told is not None:
+                told(len(results) / len(calls))
+        if broken:
+            self._drop()
+
+    def _running(self) -> ProcessPoolExecutor:
+        if self._pool is None:
+            self._pool = ProcessPoolExecutor(
+                self._workers, get_context("spawn"), initializer=_begin, initargs=(self._threads,)
+            )
+        return self._pool
+
+    def _drop(self) -> None:
+        if self._pool is not None:
+            self._pool.shutdown(cancel_futures=True)
+            self._pool = None
+
+
+def _begin(threads: int) -> None:
+    """What each process does first."""
+    use_threads(threads)
+    # Ctrl-C ends the parent, which then ends these.
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    threading.Thread(target=_end_with_parent, daemon=True).start()
+
+
+def _end_with_parent() -> None:
+    """Nobody waits for the results of a parent that was killed."""
+    parent = parent_process()
+    if parent is not None:
+        parent.join()
+        os._exit(1)

@@ -1,0 +1,159 @@
+"""What a crew finds tile by tile is what one process finds, to the byte."""
+
+import json
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+import cadgraph
+import killed_tasks
+from cadgraph.distribute.crew import TileCrew
+from cadgraph.distribute.cut import cut_rows, cut_tiles, own_pairs
+from cadgraph.distribute.hands import Failure
+from cadgraph.distribute.packing import pack_facts, unpack_facts
+from cadgraph.distribute.processes import Processes
+from cadgraph.distribute.site import FOLDER
+from cadgraph.geometry.contact.broad import near_boxes
+from cadgraph.geometry.mesh.properties import measure
+from cadgraph.geometry.shape.analysis import measure_shapes
+from cadgraph.session.demo import DEMO_SCENE
+from cadgraph.session.run import run
+
+
+class Here:
+    """Runs calls one after the other in this process, and counts them."""
+
+    def __init__(self, count=2):
+        self.count, self.calls = count, 0
+
+    def run(self, function, calls, told=None):
+        self.calls += len(calls)
+        return [function(*call) for call in calls]
+
+
+@pytest.fixture(scope="module")
+def plant():
+    scene = cadgraph.load(DEMO_SCENE)
+    return scene, _bytes(cadgraph.build(scene))
+
+
+def _bytes(graph):
+    return json.dumps(graph.to_json()).encode()
+
+
+@given(seed=st.integers(0, 2**32), tiles=st.integers(1, 40), by_space=st.booleans(), count=st.integers(1, 5))
+@settings(max_examples=12, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+def test_whatever_tiles_a_site_is_cut_into_the_graph_is_the_same_to_the_byte(
+    plant, tmp_path_factory, seed, tiles, by_space, count
+):
+    scene, whole = plant
+
+    def scattered(boxes, n):
+        return np.random.default_rng(seed).integers(0, n, len(boxes))
+
+    crew = TileCrew(Here(count), tmp_path_factory.mktemp("tiles"), tiles, cut_tiles if by_space else scattered)
+    assert _bytes(cadgraph.build(scene, crew=crew)) == whole
+
+
+@given(
+    seed=st.integers(0, 2**32),
+    n=st.integers(0, 60),
+    tiles=st.integers(1, 9),
+    reach=st.floats(0, 2),
+    broken=st.booleans(),
+)
+@settings(max_examples=60, deadline=None)
+def test_every_pair_of_near_boxes_is_owned_by_one_tile(seed, n, tiles, reach, broken):
+    rng = np.random.default_rng(seed)
+    low = rng.uniform(0, 10, (n, 3))
+    boxes = np.stack([low, low + rng.exponential(1.0, (n, 3))], axis=1)
+    if broken and n:
+        boxes[rng.integers(n)] = np.nan
+    dealt = own_pairs(boxes, rng.integers(0, tiles, n), reach)
+    found = [tuple(pair) for pairs in dealt for pair in pairs.tolist()]
+    assert len(found) == len(set(found))
+    assert set(map(tuple, near_boxes(boxes, reach).tolist())) <= set(found)
+
+
+@given(weights=st.lists(st.integers(0, 100), max_size=80), count=st.integers(1, 12), grain=st.integers(1, 32))
+def test_ranges_hold_each_row_once_and_begin_at_the_grain(weights, count, grain):
+    ranges = cut_rows(np.array(weights, np.int64), count, grain)
+    assert [row for first, last in ranges for row in range(first, last)] == list(range(len(weights)))
+    assert len(ranges) <= count
+    assert all(first % grain == 0 for first, _ in ranges)
+
+
+def test_tiles_are_about_equally_full():
+    rng = np.random.default_rng(3)
+    low = rng.uniform(0, 100, (1000, 3))
+    counts = np.bincount(cut_tiles(np.stack([low, low + 1], axis=1), 7), minlength=7)
+    assert counts.sum() == 1000
+    assert counts.max() - counts.min() < 20
+
+
+def test_measures_of_shapes_survive_packing_to_the_last_bit(plant):
+    scene, _ = plant
+    facts = measure_shapes(scene, measure(scene))
+    before, after = pack_facts(facts), pack_facts(unpack_facts(pack_facts(facts)))
+    assert before.keys() == after.keys()
+    assert all(before[name].tobytes() == after[name].tobytes() for name in before)
+
+
+def test_a_run_that_was_stopped_goes_on_where_it_was(plant, tmp_path):
+    scene, whole = plant
+    first = Here()
+    cadgraph.build(scene, crew=TileCrew(first, tmp_path, 5))
+    results = sorted(tmp_path.rglob("result-*.npz"))
+    assert len(results) == first.calls > 5
+    results[0].unlink()
+    results[-1].write_bytes(results[-1].read_bytes()[:100])
+    again = Here()
+    assert _bytes(cadgraph.build(scene, crew=TileCrew(again, tmp_path, 5))) == whole
+    assert again.calls == 2
+
+
+def test_results_of_another_scene_are_not_taken(plant, tmp_path):
+    scene, _ = plant
+    crew = TileCrew(Here(), tmp_path, 3)
+    cadgraph.build(scene, crew=crew)
+    less = scene.select(np.arange(scene.n_meshes - 5))
+    assert _bytes(cadgraph.build(less, crew=crew)) == _bytes(cadgraph.build(less))
+
+
+def test_processes_write_the_same_files_and_leave_nothing_else(tmp_path):
+    run(DEMO_SCENE, tmp_path / "one", report=False)
+    run(DEMO_SCENE, tmp_path / "two", report=False, workers=2)
+    one, two = ({file.name for file in (tmp_path / name).iterdir()} for name in ("one", "two"))
+    assert one == two
+    assert FOLDER not in two
+    assert (tmp_path / "one/graph.json").read_bytes() == (tmp_path / "two/graph.json").read_bytes()
+
+
+def test_a_process_that_is_killed_costs_another_try(tmp_path):
+    calls = [(str(tmp_path / "mark"), number) for number in range(6)]
+    shares = []
+    with Processes(2) as hands:
+        assert hands.run(killed_tasks.end_once, calls, shares.append) == list(range(6))
+        assert shares[-1] == 1
+        # The processes are as good as new.
+        assert hands.run(killed_tasks.double, [(4,)]) == [8]
+
+
+def test_a_call_that_always_ends_its_process_is_told_and_the_others_are_done():
+    with Processes(2) as hands:
+        (ended,) = hands.run(killed_tasks.end_always, [(7,)])
+        (failed,) = hands.run(killed_tasks.fail, [(3,)])
+    assert isinstance(ended, Failure)
+    assert "--tiles" in ended.reason
+    assert ended.error is None
+    assert isinstance(failed, Failure)
+    assert failed.reason == "no 3"
+    assert isinstance(failed.error, ValueError)
+
+
+@pytest.mark.parametrize("wrong", [{"workers": 0}, {"tiles": 0}])
+def test_a_count_below_one_is_refused(tmp_path, wrong):
+    with pytest.raises(ValueError, match="at least 1"):
+        run(DEMO_SCENE, tmp_path, **wrong)
