@@ -3,7 +3,7 @@ import inspect
 import pytest
 
 from cadgraph import errors
-from cadgraph.errors import CadGraphError, MissingExtra
+from cadgraph.errors import CadGraphError, FormatError, LoadError, MissingExtra
 
 
 @pytest.mark.parametrize("name", errors.__all__)
@@ -21,3 +21,15 @@ def test_a_missing_extra_says_how_to_install_it():
     error = MissingExtra("reading STEP files", "cad")
     assert str(error) == "reading STEP files needs an extra: pip install 'cadgraph[cad]'"
     assert error.extra == "cad"
+
+
+def test_messages_are_one_line_whatever_they_quote():
+    assert str(LoadError("a.usd: 'x\ny\x1b[2J\ufeff' is no unit; give m")) == "a.usd: 'x y [2J ' is no unit; give m"
+    long = str(FormatError("graph.json: " + "x" * 10_000 + "; build the graph anew"))
+    assert len(long) == 2_000
+    assert long.startswith("graph.json: xxx")
+    assert long.endswith("xxx; build the graph anew")
+
+
+def test_errors_keep_what_is_no_text():
+    assert CadGraphError("a", 3).args == ("a", 3)

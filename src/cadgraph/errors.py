@@ -35,8 +35,25 @@ __all__ = [
 ]
 
 
+_MOST = 2_000  # characters of a message: whoever reads it sees where it begins and how it ends
+_END = 300
+
+
 class CadGraphError(Exception):
-    """The base of all errors below; its text is one line that names the file, the mesh and the remedy."""
+    """The base of all errors below; its text is one line that names the file, the mesh and the remedy.
+
+    Messages may quote files, which hold anything: what can't be printed becomes a space, and the middle of a message of
+    more than 2,000 characters is left out.
+    """
+
+    def __init__(self, *arguments: object) -> None:
+        super().__init__(*(_one_line(one) if isinstance(one, str) else one for one in arguments))
+
+
+def _one_line(text: str) -> str:
+    if not text.isprintable():
+        text = "".join(letter if letter.isprintable() else " " for letter in text)
+    return text if len(text) <= _MOST else f"{text[: _MOST - _END - 5]} ... {text[-_END:]}"
 
 
 class LoadError(CadGraphError):

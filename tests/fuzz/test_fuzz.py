@@ -80,10 +80,7 @@ def raising(error):
         (raising(KeyError("a")), "traceback"),
         (raising(ValueError("a")), "traceback"),
         (raising(MemoryError()), "memory"),
-        (raising(FormatError("a\nb")), "unprintable"),
-        (raising(FormatError("\x1b[31m")), "unprintable"),
         (raising(FormatError("nothing that helps")), "unnamed"),
-        (raising(FormatError("a" * 5000)), "endless"),
         (reading(lambda file, seeds: __import__("warnings").warn("a", stacklevel=1)), "noise"),
     ],
 )
@@ -92,6 +89,13 @@ def test_the_judge_sees_every_fault(read, outcome, tmp_path):
     assert found.outcome == outcome
     assert found.is_fault
     assert outcome in FAULTS
+
+
+@pytest.mark.parametrize(
+    ("message", "outcome"), [("a\nb", "unprintable"), ("\x1b[31m", "unprintable"), ("a" * 5000, "endless")]
+)
+def test_the_judge_sees_what_is_wrong_with_a_message(message, outcome, tmp_path):
+    assert fault_of_message(KINDS["truth"], tmp_path / "a.json", message).outcome == outcome
 
 
 def test_the_judge_takes_a_line_that_names_the_file(tmp_path):

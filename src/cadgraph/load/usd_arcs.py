@@ -124,7 +124,8 @@ def arcs_of(layer: Any) -> LayerArcs:
 
 
 def _variants(sets: Any) -> tuple[tuple[Any, ...], ...]:
-    return tuple(tuple(variant.primSpec for variant in one.variants.values()) for one in sets.values())
+    # A damaged file may name sets that it doesn't hold.
+    return tuple(tuple(variant.primSpec for variant in one.variants.values()) for one in sets.values() if one)
 
 
 def _take_site(found: LayerArcs, prim: Any, keys: set[str], of_sets: tuple[tuple[Any, ...], ...]) -> None:

@@ -295,7 +295,7 @@ class Walk:
         names, make = SHAPES[kind]
         sizes = {name: self._value(prim, name) for name in names}
         numbers = [value for value in sizes.values() if not isinstance(value, str)]
-        if not all(value is not None and np.isfinite(value) and value >= 0 for value in numbers):
+        if not all(isinstance(value, int | float) and np.isfinite(value) and value >= 0 for value in numbers):
             said = ", ".join(f"{name} {value}" for name, value in sizes.items() if not isinstance(value, str))
             self._notes.add("invalid-size", f"no surface can be made of it: {said}", own_path)
             return RawMesh(np.zeros((0, 3)), np.zeros(0, np.int64), np.zeros(0, np.int64))

@@ -112,9 +112,13 @@ def _fault_of_scene(kind: Kind, file: Path, scene: Any) -> Verdict | None:
 
 def _lost_of_usd(file: Path, scene: Any) -> list[str]:
     """Surfaces of a stage, by a walk of its own, that no path of the scene and no note tells of."""
-    from pxr import Usd, UsdGeom
+    from pxr import Tf, Usd, UsdGeom
 
-    stage = Usd.Stage.Open(str(file), Usd.Stage.LoadAll)
+    try:
+        stage = Usd.Stage.Open(str(file), Usd.Stage.LoadAll)
+    except Tf.ErrorException:
+        # Damage in the middle of a binary file is noticed or not, as memory happens to be.
+        return []
     told = {*scene.paths, *scene.anchors, *(mesh for note in scene.diagnostics for mesh in note.meshes)}
     steps = Usd.PrimRange(stage.GetPseudoRoot(), Usd.TraverseInstanceProxies(Usd.PrimDefaultPredicate))
     walk, lost = iter(steps), []
