@@ -106,6 +106,10 @@ class _Child:
 
     def judge(self, case: Case) -> Judged:
         verdict = self._answer(case)
+        if verdict.outcome == "memory":
+            # The cases before may have left little: a new child tells whether this one takes it.
+            self.end()
+            verdict = self._answer(case)
         file = file_of(KINDS[case[0]], self._folder / "case")
         content = file.read_bytes() if file.is_file() else None
         if verdict.outcome in ("hang", "crash", "memory") and KINDS[case[0]].scene:
