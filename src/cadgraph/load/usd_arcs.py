@@ -125,7 +125,9 @@ def arcs_of(layer: Any) -> LayerArcs:
 
 def _variants(sets: Any) -> tuple[tuple[Any, ...], ...]:
     # A damaged file may name sets and variants that it doesn't hold.
-    return tuple(tuple(variant.primSpec for variant in one.variants.values() if variant) for one in sets.values() if one)
+    return tuple(
+        tuple(variant.primSpec for variant in one.variants.values() if variant) for one in sets.values() if one
+    )
 
 
 def _take_site(found: LayerArcs, prim: Any, keys: set[str], of_sets: tuple[tuple[Any, ...], ...]) -> None:
