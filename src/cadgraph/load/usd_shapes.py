@@ -79,7 +79,8 @@ def _turned(profile: Sequence[tuple[float, float]], sides: int) -> Shape:
             faces.append(np.column_stack([low, next_low, next_high]))
         if high[0] != high[1]:
             faces.append(np.column_stack([low, next_high, high]))
-    return np.concatenate(rings), np.concatenate(faces)
+    # Of radius 0 it is a line, without a face.
+    return np.concatenate(rings), np.concatenate(faces or [np.zeros((0, 3), np.int32)])
 
 
 def _along_axis(shape: Shape, sizes: Sizes) -> Shape:
