@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from cadgraph._io.garbage import collector_paused
 from cadgraph._io.progress import Progress, quiet
 from cadgraph.config import Config
 from cadgraph.facts.statements import places_of, statements_of
@@ -108,6 +109,7 @@ def build(
     return interpret(analysis, settled, tree, config, progress, edits=corrections)
 
 
+@collector_paused()
 def analyse(
     scene: Scene, config: Config | None = None, progress: Progress = quiet, crew: Crew | None = None
 ) -> Analysis:
@@ -229,6 +231,7 @@ def _without(labels: Sequence[Label | None], weak: Sequence[bool]) -> tuple[Labe
     return tuple(None if out else label for label, out in zip(labels, weak, strict=True))
 
 
+@collector_paused()
 def interpret(
     analysis: Analysis,
     labels: SettledLabels,

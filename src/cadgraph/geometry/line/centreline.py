@@ -33,6 +33,11 @@ class Branch:
         """Length along the line [m]."""
         return float(np.linalg.norm(np.diff(self.points, axis=0), axis=1).sum())
 
+    @cached_property
+    def widest(self) -> float:
+        """The greatest outer radius along it [m]."""
+        return float(self.radius.max())
+
 
 @dataclass(frozen=True)
 class End:

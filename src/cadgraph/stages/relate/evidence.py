@@ -124,7 +124,8 @@ def add_up_one(kind: str, measured: Mapping[str, float]) -> float:
 @lru_cache(maxsize=_MOST_KEPT)
 def _given(curve: Curve, value: float) -> float:
     """What a curve gives at one value; a change of labels leaves most joints as they were."""
-    return float(curve(value))
+    at_value = float(np.interp(value, curve.at, curve.gives))
+    return 0.0 if math.isnan(at_value) else at_value
 
 
 @lru_cache(maxsize=_MOST_KEPT)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 
@@ -126,8 +127,11 @@ def _straight(piping: Piping, part: int, line: Centreline) -> _Piece | None:
     rows = [row for row in found.ends.of_part.get(part, ()) if row in found.made and found.made[row].kind != "sleeve"]
     if len(rows) != 2:
         return None
-    piece = _piece(piping, (part,), (rows[0], rows[1]), _narrowest(line, piping, rows))
-    return piece if piece is None or is_disc(line) else replace(piece, thicker=_thicker(piping, piece))
+    piece = _piece(piping, (part,), (rows[0], rows[1]), 1.0)
+    if piece is None:
+        return None
+    piece = replace(piece, waist=_narrowest(line, piping, rows))
+    return piece if is_disc(line) else replace(piece, thicker=_thicker(piping, piece))
 
 
 def _thicker(piping: Piping, piece: _Piece) -> float:
@@ -188,19 +192,26 @@ def _cone_pair(piping: Piping, facing: Facing) -> _Piece | None:
 def _piece(piping: Piping, parts: tuple[int, ...], rows: tuple[int, int], waist: float) -> _Piece | None:
     ends = piping.joints.ends
     a, b = rows
+    if float(ends.direction[a] @ ends.direction[b]) > _ALIGNED:
+        return None
     between = ends.point[b] - ends.point[a]
     radius = float(max(ends.radius[a], ends.radius[b]))
-    off = float(np.linalg.norm(between - (between @ ends.direction[a]) * ends.direction[a]))
-    straight = float(ends.direction[a] @ ends.direction[b]) <= _ALIGNED and off <= _ON_AXIS * radius
-    return _Piece(parts, rows, waist) if straight and float(np.linalg.norm(between)) <= _LONGEST * radius else None
+    aside = between - (between @ ends.direction[a]) * ends.direction[a]
+    near = _length(aside) <= _ON_AXIS * radius and _length(between) <= _LONGEST * radius
+    return _Piece(parts, rows, waist) if near else None
+
+
+def _length(step: Floats) -> float:
+    return math.sqrt(step.dot(step))
 
 
 def _narrowest(line: Centreline, piping: Piping, rows: Sequence[int]) -> float:
     """The least radius on the axis between two ends of a part, as share of the lesser of theirs."""
     ends = piping.joints.ends
     axis = ends.direction[rows[0]]
-    points = np.concatenate([branch.points for branch in line.branches])
-    radii = np.concatenate([branch.radius for branch in line.branches])
+    one = line.branches[0] if len(line.branches) == 1 else None
+    points = one.points if one else np.concatenate([branch.points for branch in line.branches])
+    radii = one.radius if one else np.concatenate([branch.radius for branch in line.branches])
     offset = points - ends.point[rows[0]]
     lesser = float(min(ends.radius[row] for row in rows))
     # Where a branch leads off the points of the run are those on its axis, and a branch's first point lies there, too:

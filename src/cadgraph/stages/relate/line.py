@@ -13,8 +13,7 @@ _STEADY, _UNEVEN = 0.06, 0.12
 
 def is_disc(line: Centreline) -> bool:
     """Whether a line is that of something short: a flange, a gasket, a coupling, a cap."""
-    radius = max(float(branch.radius.max()) for branch in line.branches)
-    return len(line.branches) == 1 and line.length < 1.6 * radius
+    return len(line.branches) == 1 and line.length < 1.6 * line.branches[0].widest
 
 
 def is_plain_tube(line: Centreline) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from types import MappingProxyType
@@ -184,14 +185,14 @@ def _draw_line(draft: _Draft, part: int, sure: float) -> None:
     for row in draft.found.ends.of_part.get(part, ()):
         end = line.ends[int(draft.found.ends.index[row])]
         points = line.branches[end.branch].points
-        at_start = bool(np.linalg.norm(points[0] - end.point) <= np.linalg.norm(points[-1] - end.point))
+        at_start = _apart(points[0], end.point) <= _apart(points[-1], end.point)
         tips[end.branch, at_start] = draft.node_of_end[row]
     for junction in line.junctions:
         node = draft.new()
         for number in set(junction.branches):
             points = line.branches[number].points
             for at_start, point in ((True, points[0]), (False, points[-1])):
-                if np.linalg.norm(point - junction.point) < 1e-6:
+                if _apart(point, junction.point) < 1e-6:
                     tips[number, at_start] = node
     short = is_disc(line)
     for number, branch in enumerate(line.branches):
@@ -200,6 +201,11 @@ def _draw_line(draft: _Draft, part: int, sure: float) -> None:
         stop = start if branch.closed else tips.get((number, False))
         stop = draft.new() if stop is None else stop
         _draw_branch(draft, part, number, branch, (start, stop), short, sure)
+
+
+def _apart(a: Floats, b: Floats) -> float:
+    step = a - b
+    return math.sqrt(step.dot(step))
 
 
 def _draw_branch(
@@ -215,6 +221,10 @@ def _draw_branch(
         else:
             stops.append((s, node, point))
     stops.append((length, tips[1], branch.points[-1]))
+    if len(stops) == 2 and len(branch.points) == 2:
+        pieces = () if short else _pieces(branch, np.array([0.0, length]), 0.0, length)
+        draft.spans.append(Span(*tips, (part,), branch.points, length, pieces, sure))
+        return
     walked = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(branch.points, axis=0), axis=1))])
     for (low, a, p), (high, b, q) in zip(stops[:-1], stops[1:], strict=True):
         between = branch.points[(walked > low + _SAME_PLACE) & (walked < high - _SAME_PLACE)]

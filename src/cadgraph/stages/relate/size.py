@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import lru_cache
 
 from cadgraph.model.standards import outer_diameters
 
@@ -11,8 +12,10 @@ __all__ = ["nominal_size", "sizes_along"]
 # An outer diameter belongs to a size within this share. Ours: the widest that keeps neighbours apart from DN 15 up
 # (DN 300 and 350 differ by 10 %), as drawn pipes are a polygon or a rounded figure.
 _TOLERANCE = 0.045
+_MOST_KEPT = 1 << 16  # diameters; pipes of a plant have few
 
 
+@lru_cache(maxsize=_MOST_KEPT)
 def nominal_size(diameter: float) -> int | None:
     """The nominal size (DN) of a pipe.
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 
@@ -52,7 +53,7 @@ def join_spans(first: Span, second: Span) -> Span:
     """Two spans one after the other; the first ends where the second begins."""
     p, q = first.points[-1], second.points[0]
     step = q - p
-    gap = float(np.linalg.norm(step))
+    gap = math.sqrt(step.dot(step))
     if gap > 0:
         heading = _heading(first.points) if len(first.points) > 1 else _heading(second.points)
         # What lies in each other counts once, what is bridged counts too.
@@ -61,7 +62,7 @@ def join_spans(first: Span, second: Span) -> Span:
     return Span(
         a=first.a,
         b=second.b,
-        via=first.via + tuple(part for part in second.via if not first.via or part != first.via[-1]),
+        via=first.via + _without(second.via, first.via[-1:]),
         points=points,
         length=max(0.0, first.length + second.length + gap),
         pieces=first.pieces + second.pieces,
@@ -69,6 +70,10 @@ def join_spans(first: Span, second: Span) -> Span:
         port_a=first.port_a,
         port_b=second.port_b,
     )
+
+
+def _without(parts: tuple[int, ...], others: tuple[int, ...]) -> tuple[int, ...]:
+    return tuple(part for part in parts if part not in others) if any(one in parts for one in others) else parts
 
 
 def _heading(points: Floats) -> Floats | None:
