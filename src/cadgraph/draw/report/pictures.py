@@ -98,6 +98,12 @@ class _Ready:
         kinds = [groups[p.label.group] if p.label is not None else ground if p.ground else rest for p in self.parts]
         return np.array([*kinds, rest], np.int64)[self.row_of_mesh]
 
+    @cached_property
+    def heights(self) -> tuple[float, float]:
+        """Of the lowest and the highest point [m]."""
+        heights = self.renderer.points()[:, 2]
+        return float(heights.min()), float(heights.max())
+
     def meshes_of(self, members: set[str]) -> Bools:
         """``(n_meshes,)`` whether a mesh belongs to one of these parts."""
         return np.array([*(part.id in members for part in self.parts), False], bool)[self.row_of_mesh]
@@ -280,9 +286,9 @@ def _edge_word(edges: Sequence[Edge]) -> str:
 
 def _grounded(ready: _Ready, meshes: Ints) -> Look:
     """A floor only where the structure stands on the scene's own ground: else its shadow would hang in the air."""
-    everything, structure = ready.renderer.caster(), ready.renderer.caster(meshes)
-    height = everything.high[2] - everything.low[2]
-    return replace(ready.look, floor=bool(structure.low[2] - everything.low[2] < 0.1 * height))
+    low, high = ready.heights
+    lowest = float(ready.renderer.points(meshes)[:, 2].min())
+    return replace(ready.look, floor=lowest - low < 0.1 * (high - low))
 
 
 def _group_paint(
