@@ -24,7 +24,7 @@ from cadgraph.draw.render.picture import Look, Paint, Renderer
 from cadgraph.draw.render.views import three_quarter_view
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Cluster, Connected, Edge, Junction, Part, Point, Related, Terminal, Unit
-from cadgraph.model.scene import Ints, Scene
+from cadgraph.model.scene import Floats, Ints, Scene
 
 __all__ = ["Picture", "cluster_colors", "draw_pictures", "kind_words", "largest_first"]
 
@@ -106,7 +106,14 @@ class _Ready:
 
     def meshes_of(self, members: set[str]) -> Bools:
         """``(n_meshes,)`` whether a mesh belongs to one of these parts."""
-        return np.array([*(part.id in members for part in self.parts), False], bool)[self.row_of_mesh]
+        inside = np.zeros(len(self.parts) + 1, bool)
+        inside[[self.row_of_part[name] for name in members]] = True
+        return inside[self.row_of_mesh]
+
+    @cached_property
+    def row_of_part(self) -> dict[str, int]:
+        """The row of each part among all, by its id."""
+        return {part.id: row for row, part in enumerate(self.parts)}
 
 
 def draw_pictures(scene: Scene, graph: SceneGraph, config: ReportConfig, progress: Progress = quiet) -> list[Picture]:
@@ -123,7 +130,7 @@ def draw_pictures(scene: Scene, graph: SceneGraph, config: ReportConfig, progres
         first.
         None at all if the scene has nothing to draw.
     """
-    if not scene.n_triangles or not np.isfinite(scene.vertices).all(axis=1).any():
+    if not scene.n_triangles or not np.isfinite(_own_vertices(scene)).all(axis=1).any():
         return []
     parts = graph.parts()
     owner = {mesh: row for row, part in enumerate(parts) for mesh in part.meshes}
@@ -157,6 +164,13 @@ def draw_pictures(scene: Scene, graph: SceneGraph, config: ReportConfig, progres
             if picture is not None:
                 pictures.append(picture)
     return pictures
+
+
+def _own_vertices(scene: Scene) -> Floats:
+    """``(n, 3)`` the vertices of all shapes that meshes of the scene have, each once."""
+    if scene.placement is None:
+        return scene.shapes.vertices
+    return scene.shapes.select(np.unique(scene.placement.shape)).vertices
 
 
 def largest_first(clusters: Sequence[Cluster]) -> list[Cluster]:
