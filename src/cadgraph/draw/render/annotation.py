@@ -174,7 +174,7 @@ def _on_top(places: Floats, kinds: Sequence[tuple[str, float]], order: Sequence[
     """
     if not order:
         return []
-    sound = np.isfinite(places).all(axis=1)
+    sound = np.asarray(np.isfinite(places).all(axis=1))
     dots = np.where(sound[:, None], np.clip(places, -_FAR, _FAR), 0.0).round().astype(np.int64)[np.asarray(order)]
     last = {(kind, dot): i for kind, dot, i in zip(kinds, map(tuple, dots.tolist()), order, strict=True) if sound[i]}
     chosen = set(last.values())

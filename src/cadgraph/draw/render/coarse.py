@@ -167,7 +167,7 @@ def _found(table: Any, keys: Any, key: int, count: int, room: int) -> int:
     at = np.int64((mixed ^ (mixed >> np.uint64(32))) & np.uint64(room - 1))
     while table[at] >= 0:
         if keys[table[at]] == key:
-            return np.int64(table[at])
+            return int(table[at])
         at = (at + 1) & (room - 1)
     table[at], keys[count] = count, key
     return count

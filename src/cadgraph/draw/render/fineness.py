@@ -81,7 +81,7 @@ class Fineness:
         low, high = self._boxes if meshes is None else (self._boxes[0][meshes], self._boxes[1][meshes])
         middle, half = (low + high) / 2 - camera.eye, (high - low) / 2
         wide = camera.half_height * camera.width / camera.height
-        inside = np.isfinite(half).all(axis=1)
+        inside: Bools = np.asarray(np.isfinite(half).all(axis=1))
         for side, slope in ((camera.right, wide), (-camera.right, wide), (camera.up, camera.half_height),
                             (-camera.up, camera.half_height), (np.zeros(3), 1.0)):  # fmt: skip
             normal = side + slope * camera.forward
@@ -111,7 +111,7 @@ def _boxes(arrays: MeshArrays) -> tuple[Floats, Floats]:
     low, high = np.full((arrays.n, 3), np.inf), np.full((arrays.n, 3), -np.inf)
     filled = np.flatnonzero(np.diff(arrays.vertex_offsets))
     if len(filled):
-        sound = np.isfinite(arrays.vertices).all(axis=1)[:, None]
+        sound = np.asarray(np.isfinite(arrays.vertices).all(axis=1))[:, None]
         starts = arrays.vertex_offsets[:-1][filled]
         low[filled] = np.minimum.reduceat(np.where(sound, arrays.vertices, np.inf), starts)
         high[filled] = np.maximum.reduceat(np.where(sound, arrays.vertices, -np.inf), starts)

@@ -14,7 +14,6 @@ from PIL import Image
 
 from cadgraph.draw.render.camera import Camera
 from cadgraph.draw.render.caster import Caster, Hits, TwoCasters
-from cadgraph.draw.render.coarse import coarsened
 from cadgraph.draw.render.color import Colors, source_colors
 from cadgraph.draw.render.crease import CornerNormals
 from cadgraph.draw.render.fineness import Fineness
@@ -145,12 +144,9 @@ class Renderer:
         return found
 
     def points(self, meshes: npt.ArrayLike | None = None) -> Floats:
-        """``(n, 3)`` the finite vertices of these meshes (all by default) [m], for framing; of very many fewer."""
-        chosen = None if meshes is None else np.unique(np.asarray(meshes, np.int64))
-        cell, most = self._fineness.steps(chosen, None)
-        if cell > 0:
-            return coarsened(self.scene, np.arange(self.scene.n_meshes) if chosen is None else chosen, cell, most)[0]
-        vertices = (self.scene if chosen is None else self.scene.select(chosen)).vertices
+        """``(n, 3)`` the finite vertices of these meshes (all by default) [m], for framing."""
+        scene = self.scene if meshes is None else self.scene.select(np.unique(np.asarray(meshes, np.int64)))
+        vertices = scene.vertices
         finite = np.isfinite(vertices).all(axis=1)
         return vertices if finite.all() else vertices[finite]
 

@@ -299,7 +299,7 @@ def _thinning(width: int, height: int, row: int, column: int, crowd: Any) -> flo
     left, right = max(0, column - _CROWD), min(width, column + _CROWD + 1)
     edges = crowd[bottom, right] - crowd[top, right] - crowd[bottom, left] + crowd[top, left]
     count = (bottom - top) * (right - left)
-    return 1.0 - 0.8 * min(1.0, max(0.0, (edges / count - _CALM) / (_CROWDED - _CALM)))
+    return float(1.0 - 0.8 * min(1.0, max(0.0, (edges / count - _CALM) / (_CROWDED - _CALM))))
 
 
 @compiled
