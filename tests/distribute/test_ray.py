@@ -18,6 +18,7 @@ from cadgraph.errors import CadGraphError
 from cadgraph.session.demo import DEMO_SCENE
 from cadgraph.session.many import build_many
 from cadgraph.session.run import run
+from serving import write_blocks
 
 pytest.importorskip("ray")
 from cadgraph.distribute.on_ray import RayHands
@@ -116,7 +117,7 @@ def test_a_worker_and_a_node_that_are_lost_in_the_middle_change_nothing(cluster,
 
 def test_many_scenes_go_to_the_nodes_and_one_that_fails_stops_no_other(cluster, tmp_path):
     (tmp_path / "broken.usda").write_text("nothing of ours")
-    scenes = [DEMO_SCENE, tmp_path / "broken.usda"]
+    scenes = [write_blocks(tmp_path / "blocks.usda"), tmp_path / "broken.usda"]
     built = build_many(scenes, tmp_path / "out", report=False, ray=cluster.address)
     assert [one.state for one in built] == ["built", "failed"]
     assert (tmp_path / "out" / built[0].name / "graph.json").is_file()

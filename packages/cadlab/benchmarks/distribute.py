@@ -20,7 +20,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 sys.path.insert(0, str(Path(__file__).parent))
 
@@ -39,6 +39,8 @@ from cadgraph.session.demo import DEMO_SCENE
 from cadlab.markdown import table
 
 STAGES = ("read", "measure", "contacts", "group", "label", "relate", "places", "mechanisms", "assemble", "write labels")
+_T = TypeVar("_T")
+
 EMPTY = 200  # tasks that do nothing
 
 
@@ -127,7 +129,7 @@ class Timed:
     def facts(self, *given: Any) -> Sequence[Facts]:
         return self._timed("shapes", lambda: self._crew.facts(*given))
 
-    def _timed(self, name: str, act: Callable[[], Any]) -> Any:
+    def _timed(self, name: str, act: Callable[[], _T]) -> _T:
         self._step = self.steps[name] = Step()
         wall, spent = time.perf_counter(), time.process_time()
         found = act()
