@@ -110,6 +110,7 @@ HEAVY = {
     "numba",
     "openai",
     "pxr",
+    "ray",
     "scipy",
     "starlette",
     "trimesh",

@@ -1,6 +1,7 @@
 """What a crew finds tile by tile is what one process finds, to the byte."""
 
 import json
+import time
 
 import numpy as np
 import pytest
@@ -28,7 +29,7 @@ class Here:
     def __init__(self, count=2):
         self.count, self.calls = count, 0
 
-    def run(self, function, calls, told=None):
+    def run(self, function, calls, told=None, each=None):
         self.calls += len(calls)
         return [function(*call) for call in calls]
 
@@ -114,6 +115,18 @@ def test_a_run_that_was_stopped_goes_on_where_it_was(plant, tmp_path):
     assert again.calls == 2
 
 
+@pytest.mark.parametrize(("count", "anew"), [(3, False), (64, True)])
+def test_with_a_few_more_workers_a_run_goes_on_with_the_tiles_that_it_had(plant, tmp_path, count, anew):
+    scene, _ = plant
+    measured = measure(scene)
+    first = TileCrew(Here(2), tmp_path).contacts(scene, measured, 0.01)
+    more = Here(count)
+    again = TileCrew(more, tmp_path).contacts(scene, measured, 0.01)
+    assert again.pairs.tobytes() == first.pairs.tobytes()
+    assert again.distance.tobytes() == first.distance.tobytes()
+    assert bool(more.calls) == anew
+
+
 def test_results_of_another_scene_are_not_taken(plant, tmp_path):
     scene, _ = plant
     crew = TileCrew(Here(), tmp_path, 3)
@@ -139,6 +152,16 @@ def test_a_process_that_is_killed_costs_another_try(tmp_path):
         assert shares[-1] == 1
         # The processes are as good as new.
         assert hands.run(killed_tasks.double, [(4,)]) == [8]
+
+
+def test_who_is_stopped_does_not_wait_for_what_is_being_worked_out():
+    def stop(*_):
+        raise KeyboardInterrupt
+
+    start = time.monotonic()
+    with pytest.raises(KeyboardInterrupt), Processes(2) as hands:
+        hands.run(killed_tasks.double_slowly, [(0.0, 1), (300.0, 2)], each=stop)
+    assert time.monotonic() - start < 150
 
 
 def test_a_call_that_always_ends_its_process_is_told_and_the_others_are_done():

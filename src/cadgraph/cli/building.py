@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
+from rich.markup import escape
 
 from cadgraph.cli.application import app
 from cadgraph.cli.asking import AskingOptions, asks
+from cadgraph.cli.build_command import BuildCommand
 from cadgraph.cli.options import (
     USE_METADATA,
     AssetRootOption,
@@ -23,16 +25,24 @@ from cadgraph.cli.options import (
     read_flows,
     settings_of,
 )
-from cadgraph.cli.screen import bars, tell, tell_next
+from cadgraph.cli.screen import bars, err, out, tell, tell_built, tell_next
+from cadgraph.config import Config
+from cadgraph.errors import CadGraphError
 
 if TYPE_CHECKING:
     from cadgraph.model.graph import SceneGraph
 
 
-@app.command()
+@app.command(cls=BuildCommand)
 @asks
 def build(
-    scene: Annotated[Path, typer.Argument(metavar="SCENE", help="A CAD scene: USD, STEP, IFC, RVM, glTF, OBJ, STL...")],
+    scenes: Annotated[
+        list[Path],
+        typer.Argument(
+            metavar="SCENE",
+            help="A CAD scene: USD, STEP, IFC, RVM, glTF, OBJ, STL... Of several, each goes into FOLDER/NAME.",
+        ),
+    ],
     output: Annotated[Path, typer.Option("--output", "-o", metavar="FOLDER", help="Where the results go.")],
     asking: AskingOptions,
     labels: Annotated[
@@ -68,15 +78,27 @@ def build(
     settings: SetOption = None,
     report: Annotated[bool, typer.Option("--report/--no-report", help="Draw pictures and write report.html.")] = True,
     workers: Annotated[
-        int, typer.Option("--workers", min=1, help="Processes that share the analysis of a big site, tile by tile.")
-    ] = 1,
+        int | None,
+        typer.Option(
+            "--workers",
+            min=1,
+            show_default="1; with --ray all processors",
+            help="Processes that share the analysis of a big site, tile by tile, or many scenes.",
+        ),
+    ] = None,
     tiles: Annotated[
         int | None, typer.Option("--tiles", min=1, help="Tiles that the site is cut into; by its size if not given.")
     ] = None,
+    ray: Annotated[
+        str | None,
+        typer.Option(
+            "--ray",
+            metavar="ADDRESS",
+            help="Do this on a Ray cluster: HOST:PORT, auto, or one started here (local, or no address).",
+        ),
+    ] = None,
 ) -> None:
-    """Turn a CAD scene into a scene graph, a USD label layer and a report."""
-    from cadgraph.session.run import run
-
+    """Turn CAD scenes into scene graphs, USD label layers and reports."""
     changes = [*(settings or [])]
     chosen = settings_of(config, changes, method, unit, up, scale=scale, strict=strict, asset_roots=asset_roots)
     if ground:
@@ -89,10 +111,21 @@ def build(
     if use_metadata:
         chosen = chosen.replace(USE_METADATA)
     before, chosen = chosen, asking.settings(chosen)
+    if len(scenes) > 1:
+        if tiles is not None:
+            raise ValueError("--tiles cuts one scene; of several each is built as a whole")
+        if chosen.lvlm.ask != "never":
+            raise ValueError("a model is asked about one scene at a time; build them one by one, or --labeler embedded")
+        _build_many(
+            scenes, output, chosen, labels=labels, vocabulary=vocabulary, report=report, workers=workers, ray=ray
+        )
+        return
+    from cadgraph.session.run import run
+
     with bars(() if report else ("draw report",)) as progress:
         labeler = asking.labeler(chosen, output, progress)
         outcome = run(
-            scene,
+            scenes[0],
             output,
             asking.stored(chosen, before),
             labels=labels,
@@ -102,9 +135,30 @@ def build(
             progress=progress,
             workers=workers,
             tiles=tiles,
+            ray=ray,
         )
     tell(outcome)
     asking.tell(labeler, outcome.graph)
+
+
+def _build_many(scenes: list[Path], output: Path, config: Config, **more: Any) -> None:
+    """Builds each scene into a folder of its own, and says of each what became of it.
+
+    Raises:
+        CadGraphError: one failed; all others are built.
+    """
+    from cadgraph.session.many import build_many
+
+    width = max(len(scene.stem) for scene in scenes)
+    built = build_many(scenes, output, config, **more, told=lambda one: tell_built(one, width))
+    failed = [one for one in built if one.state == "failed"]
+    if failed:
+        for one in failed:
+            err.print(f"[dim]{escape(one.name):<{width}}[/]  {escape(one.reason)}")
+        raise CadGraphError(
+            f"{len(failed)} of {len(built)} scenes failed; the same command goes on with them, and keeps the others"
+        )
+    out.print(f"[dim]{len(built)} scenes[/]  [bold]{escape(str(output))}[/]")
 
 
 @app.command()

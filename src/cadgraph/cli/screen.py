@@ -21,7 +21,8 @@ from cadgraph._io.text import harmless
 from cadgraph.cli.remaining import Remaining, told
 
 __all__ = [
-    "bars", "err", "note_line", "out", "say", "say_json", "summary_lines", "tell", "tell_next", "tell_state",
+    "bars", "err", "note_line", "out", "say", "say_json", "summary_lines", "tell", "tell_built", "tell_next",
+    "tell_state",
 ]  # fmt: skip
 
 _REMEDY = "'cadgraph build' makes it anew"
@@ -147,6 +148,22 @@ def tell(outcome: Any) -> None:
         if purpose in outcome.files:
             out.print(f"[dim]{words:<15}[/][bold]{escape(str(outcome.files[purpose]))}[/]")
     tell_state(outcome.earlier, outcome.removed)
+
+
+def tell_built(one: Any, width: int) -> None:
+    """Says on one line what became of one of many scenes.
+
+    Args:
+        one: the scene, as ``cadgraph.session.many`` has it.
+        width: of the longest name.
+    """
+    found = f"{_count(one.parts, 'part')}, {_count(one.units, 'unit')}, {_count(one.connections, 'connection')}"
+    said = {
+        "built": f"built in {one.seconds:.1f} s: {found}",
+        "kept": f"kept as it was built before this run was stopped: {found}",
+        "failed": f"[bold red]failed[/]: {escape(one.reason)}",
+    }
+    out.print(f"[dim]{escape(one.name):<{width}}[/]  {said[one.state]}")
 
 
 def tell_state(earlier: Sequence[str], removed: Sequence[str] = (), changed: Sequence[str] = ()) -> None:

@@ -12,6 +12,7 @@ import numpy as np
 
 from cadgraph.draw.render.annotation import Tag, annotate
 from cadgraph.draw.render.camera import frame
+from cadgraph.draw.render.coarse import coarsened
 from cadgraph.draw.render.pair import PairRenderer
 from cadgraph.draw.render.picture import Renderer
 from cadgraph.draw.web.packing import pack_scene
@@ -31,6 +32,7 @@ def warm_up() -> None:
     renderer.pair(0, camera, [1])
     renderer.alone(0, camera, np.array([0.0, -1.0, 0.0, 0.0]))
     picture = Renderer(scene).picture(camera)
+    coarsened(scene, np.arange(scene.n_meshes), 0.01, 1.0)
     annotate(picture, camera, tags=[Tag((0.0, 0.0, 0.0), "")])
     pack_scene(scene)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from functools import partial
+from functools import cached_property, partial
 from pathlib import Path
 from typing import Any
 
@@ -27,6 +27,8 @@ from cadgraph.model.shapes import Facts
 __all__ = ["TileCrew"]
 
 Found = dict[str, npt.NDArray[Any]]
+
+_UNLIKE = 4  # times as many, or as few, that work on a run as did before it was stopped: it is cut anew
 
 
 class TileCrew:
@@ -74,7 +76,7 @@ class TileCrew:
     def visible(self, scene: Scene, properties: Properties, progress: Progress = quiet) -> Bools:
         """``(n_meshes,)`` whether each mesh can be seen from outside."""
         # Each task sees the whole scene, so there are no more of them than hands.
-        ranges = cut_rows(np.ones(scene.n_meshes, np.int64), min(self._hands.count, self._count(scene.n_meshes)))
+        ranges = cut_rows(np.ones(scene.n_meshes, np.int64), min(self._shares, self._count(scene.n_meshes)))
         found = self._of_ranges("visible", look_at_meshes, scene, properties, ranges, _visible_in, progress)
         return np.concatenate([np.zeros(0, np.bool_), *found])
 
@@ -103,7 +105,23 @@ class TileCrew:
         return found
 
     def _count(self, n_meshes: int) -> int:
-        return self._tiles or default_tiles(n_meshes, self._hands.count)
+        return self._tiles or default_tiles(n_meshes, self._shares)
+
+    @cached_property
+    def _shares(self) -> int:
+        """How many share the work: where a run was stopped, as many as then, so that its results still fit.
+
+        Unless many more work now, for whom those tiles would be too few; or there are so many tiles for nothing.
+        """
+        file, now = self._folder / "shares.txt", self._hands.count
+        try:
+            before = int(file.read_text(encoding="ascii")[:9])
+        except (OSError, ValueError):
+            before = 0
+        if now / _UNLIKE <= before <= now * _UNLIKE:
+            return before
+        write_atomically(file, f"{now}\n")
+        return now
 
     def _place(self, name: str, arrays: Found, *settings: object) -> tuple[Path, Path]:
         """Where what the tasks of a step read lies, and where their results go: named by what these depend on."""

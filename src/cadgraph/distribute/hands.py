@@ -34,7 +34,11 @@ class Hands(Protocol):
         ...
 
     def run(
-        self, function: Callable[..., Any], calls: Sequence[Call], told: Callable[[float], None] | None = None
+        self,
+        function: Callable[..., Any],
+        calls: Sequence[Call],
+        told: Callable[[float], None] | None = None,
+        each: Callable[[int, Any], None] | None = None,
     ) -> list[Any]:
         """Runs calls.
 
@@ -42,6 +46,7 @@ class Hands(Protocol):
             function: of a module, so that another process finds it; the same call may be run twice.
             calls: its arguments.
             told: called with the share that is done.
+            each: called with the number of a call and what came of it, as soon as that is known.
 
         Returns:
             What each call returned, or its ``Failure``, in the order of the calls.

@@ -40,7 +40,11 @@ class Processes:
     def __enter__(self) -> Processes:
         return self
 
-    def __exit__(self, *_: object) -> None:
+    def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
+        if kind is not None and self._pool is not None:
+            # Who was stopped doesn't wait for what is still being worked out: results are written whole or not at all.
+            for process in list((getattr(self._pool, "_processes", None) or {}).values()):
+                process.terminate()
         self._drop()
 
     @property
@@ -49,10 +53,22 @@ class Processes:
         return self._workers
 
     def run(
-        self, function: Callable[..., Any], calls: Sequence[Call], told: Callable[[float], None] | None = None
+        self,
+        function: Callable[..., Any],
+        calls: Sequence[Call],
+        told: Callable[[float], None] | None = None,
+        each: Callable[[int, Any], None] | None = None,
     ) -> list[Any]:
         """Runs calls; see ``Hands.run``."""
         results: dict[int, Any] = {}
+
+        def done(number: int, result: Any) -> None:
+            results[number] = result
+            if each is not None:
+                each(number, result)
+            if told is not None:
+                told(len(results) / len(calls))
+
         waiting = list(range(len(calls)))
         for attempt in range(_TRIES):
             if not waiting:
@@ -60,17 +76,18 @@ class Processes:
             # Which call ends a process can't be told while several run; the last time each has one for itself.
             groups = [[number] for number in waiting] if attempt == _TRIES - 1 else [waiting]
             for group in groups:
-                self._try(function, calls, group, results, told)
+                self._try(function, calls, group, done)
             waiting = [number for number in waiting if number not in results]
-        return [results.get(number, Failure(_ENDED)) for number in range(len(calls))]
+        for number in waiting:
+            done(number, Failure(_ENDED))
+        return [results[number] for number in range(len(calls))]
 
     def _try(
         self,
         function: Callable[..., Any],
         calls: Sequence[Call],
         numbers: Sequence[int],
-        results: dict[int, Any],
-        told: Callable[[float], None] | None,
+        done: Callable[[int, Any], None],
     ) -> None:
         """Runs some of the calls; those are without a result whose process ended."""
         try:
@@ -82,14 +99,13 @@ class Processes:
         broken = False
         for future in as_completed(futures):
             try:
-                results[futures[future]] = future.result()
+                result = future.result()
             except BrokenProcessPool:
                 broken = True
                 continue
             except Exception as error:  # noqa: BLE001 - whatever a call raises is its result
-                results[futures[future]] = Failure(str(error) or type(error).__name__, error)
-            if told is not None:
-                told(len(results) / len(calls))
+                result = Failure(str(error) or type(error).__name__, error)
+            done(futures[future], result)
         if broken:
             self._drop()
 

@@ -14,7 +14,7 @@ from cadgraph._io.progress import Progress, quiet
 from cadgraph._io.results import NewResults, new_results
 from cadgraph._io.run_folder import refuse_to_overwrite, results_folder
 from cadgraph.config import Config
-from cadgraph.distribute.site import crew_of_processes
+from cadgraph.distribute.site import crew_for
 from cadgraph.labelers.base import AskingLabeler, Labeler
 from cadgraph.load import load
 from cadgraph.model.corrections import CorrectionsFile
@@ -74,8 +74,9 @@ def run(
     labeler: Labeler | None = None,
     report: bool = True,
     progress: Progress = quiet,
-    workers: int = 1,
+    workers: int | None = None,
     tiles: int | None = None,
+    ray: str | None = None,
 ) -> Outcome:
     """Reads a scene, builds its graph, and writes ``graph.json``, ``semantics.usda``, ``report.html`` and pictures.
 
@@ -97,17 +98,22 @@ def run(
         workers: processes that share the costly steps of the analysis, tile by tile; the graph is the same to the byte.
             What they have found lies in the folder until the run is over, so that one that was stopped goes on there.
             In a script that asks for more than one, keep your own work under ``if __name__ == "__main__":``.
+            One if None; with ``ray`` all processors.
         tiles: that the site is cut into; by its size and the workers if None. Either more than one of them makes tiles.
+        ray: address of a Ray cluster that does the same in place of processes: ``"local"``, ``"auto"`` or
+            ``"host:port"``.
 
     Raises:
-        ValueError: ``workers`` or ``tiles`` is below 1.
+        ValueError: ``workers`` or ``tiles`` is below 1, or ``ray`` is no address.
+        MissingExtra: Ray is asked for and not installed.
+        CadGraphError: the cluster can't be used.
         LoadError: the scene can't be read.
         LabelError: labels or vocabulary can't be used.
         OutputError: the folder can't be written, or a result would take the place of a file that isn't ours.
     """
     config = config or Config()
     clock = Clock(progress)
-    with results_folder(folder) as target, crew_of_processes(target, workers, tiles) as crew:
+    with results_folder(folder) as target, crew_for(target, workers, tiles, ray) as crew:
         tree = vocabulary if isinstance(vocabulary, Vocabulary) else _tree(vocabulary)
         given = read_labels(labels, tree) if isinstance(labels, str | Path) else labels or ()
         session = begin(source, target, config, given, tree, labeler, clock, crew=crew)

@@ -76,3 +76,10 @@ def test_tags_that_stand_in_the_way_are_left_out_of_a_crowded_picture_and_counte
     calm = annotate(WHITE, CAMERA, tags=tags, marks=marks, clutter=3.0)
     assert 0 < calm.tagged < everything.tagged
     assert annotate(WHITE, CAMERA, tags=tags[:1], clutter=3.0).tagged == 1
+
+
+def test_of_marks_on_the_same_dots_the_nearest_shows():
+    marks = [Mark((0, 0, 0), "#ff0000"), *(Mark((0, 1e-6 * k, 0), "#00ff00") for k in range(1, 9))]
+    both = annotate(WHITE, CAMERA, marks=marks).image
+    alone = annotate(WHITE, CAMERA, marks=[marks[0], marks[1]]).image
+    assert np.abs(np.asarray(both).astype(int) - np.asarray(alone)).max() <= 2

@@ -22,6 +22,7 @@ _Rgb = tuple[int, int, int]
 
 _DRAWN_FOR = 800  # [px] height of the picture that the sizes below are meant for
 _MOST_PIXELS = 40_000_000  # of the enlarged layer that lines are drawn on
+_FAR = 1e12  # [dots]
 _FONT = 14
 _INK: _Rgb = (28, 33, 40)
 _Box = tuple[float, float, float, float]
@@ -129,9 +130,11 @@ def annotate(
     placed = _placed_tags(image.size, camera, tags, places, lines, taken, scale, clutter)
     layer = Image.new("RGBA", (width * zoom, height * zoom), (255, 255, 255, 0))
     draw = ImageDraw.Draw(layer)
-    for segment, line in sorted(zip(segments, lines, strict=True), key=lambda pair: pair[0].color):
-        _draw_line(draw, line * zoom, segment.color, segment.width * scale * zoom)
-    for i in np.argsort(-depths, kind="stable"):
+    order = sorted(range(len(segments)), key=lambda i: segments[i].color)
+    for i in _on_top(lines * zoom, [(segments[i].color, segments[i].width) for i in order], order):
+        _draw_line(draw, lines[i] * zoom, segments[i].color, segments[i].width * scale * zoom)
+    order = np.argsort(-depths, kind="stable").tolist()
+    for i in _on_top(places * zoom, [(marks[i].color, marks[i].radius) for i in order], order):
         _draw_ball(draw, places[i] * zoom, marks[i].color, marks[i].radius * scale * zoom)
     _draw_tags(draw, placed, scale * zoom, zoom)
     # Downscaling needs colours weighted by their cover, or white would creep into the edges.
@@ -159,9 +162,26 @@ def _drawn_lines(camera: Camera, segments: Sequence[Segment]) -> Floats:
     return places.reshape(-1, 4)
 
 
+def _on_top(places: Floats, kinds: Sequence[tuple[str, float]], order: Sequence[int]) -> list[int]:
+    """What is drawn: of those alike that lie within the same dots, only the last, which hides the others.
+
+    A line of a plant seen from afar is of thousands of pieces, each shorter than a pixel.
+
+    Args:
+        places: ``(n, k)`` coordinates [dots]; what isn't finite is left out.
+        kinds: ``(n,)`` colours and sizes, in the order of drawing.
+        order: ``(n,)`` of drawing.
+    """
+    if not order:
+        return []
+    sound = np.asarray(np.isfinite(places).all(axis=1))
+    dots = np.where(sound[:, None], np.clip(places, -_FAR, _FAR), 0.0).round().astype(np.int64)[np.asarray(order)]
+    last = {(kind, dot): i for kind, dot, i in zip(kinds, map(tuple, dots.tolist()), order, strict=True) if sound[i]}
+    chosen = set(last.values())
+    return [i for i in order if i in chosen]
+
+
 def _draw_line(draw: ImageDraw.ImageDraw, line: Floats, color: str, width: float) -> None:
-    if not np.isfinite(line).all():
-        return
     x0, y0, x1, y1 = line.tolist()
     for share, fill in _line_tones(color):
         thick = max(1.0, width * share)
@@ -180,8 +200,6 @@ def _line_tones(color: str) -> tuple[tuple[float, tuple[int, int, int, int]], ..
 
 
 def _draw_ball(draw: ImageDraw.ImageDraw, place: Floats, color: str, radius: float) -> None:
-    if not np.isfinite(place).all():
-        return
     x, y = (float(c) for c in place)
     rgb = _rgb(color)
     steps = 7

@@ -9,6 +9,7 @@ import numpy.typing as npt
 from embreex.mesh_construction import TriangleMesh
 from embreex.rtcore_scene import EmbreeScene
 
+from cadgraph.draw.render.coarse import coarsened
 from cadgraph.model.scene import Floats, Scene
 
 __all__ = ["Caster", "Hits", "TwoCasters"]
@@ -44,25 +45,16 @@ class Caster:
     Args:
         scene: the scene.
         meshes: ``(n,)`` indices of the meshes to cast at; all by default.
+        cell: what is smaller needn't be told apart [m], see :func:`~cadgraph.draw.render.coarse.coarsened`; 0 casts at
+            the meshes as they are.
+        most: meshes larger than this are cast at as they are, too [m].
 
     Raises:
         ValueError: these meshes have no finite triangle.
     """
 
-    def __init__(self, scene: Scene, meshes: npt.ArrayLike | None = None) -> None:
-        self._faces: Indices | None = None  # the scene's face behind each triangle, where they aren't all cast at
-        part = scene
-        if meshes is not None:
-            chosen = np.unique(np.asarray(meshes, np.int64))
-            part = scene.select(chosen)
-            shift = scene.face_offsets[chosen] - part.face_offsets[:-1]
-            self._faces = (np.arange(part.n_triangles) + np.repeat(shift, np.diff(part.face_offsets))).astype(np.int32)
-        indices, vertices = part.short_global_faces(), part.vertices
-        finite = np.asarray(np.isfinite(vertices).all(axis=1))
-        if not finite.all():
-            sound = finite[indices].all(axis=1)
-            indices = indices[sound]
-            self._faces = np.flatnonzero(sound).astype(np.int32) if self._faces is None else self._faces[sound]
+    def __init__(self, scene: Scene, meshes: npt.ArrayLike | None = None, cell: float = 0.0, most: float = 0.0) -> None:
+        vertices, indices, self._faces = _soup(scene, meshes, cell, most)
         if not len(indices):
             raise ValueError("no picture of an empty scene: none of its meshes has a triangle with finite corners")
         used = np.zeros(len(vertices), bool)
@@ -146,3 +138,24 @@ class TwoCasters(Caster):
         return self._still.blocked(origins, directions, lengths) | self._moved.blocked(
             origins + self._shift, directions, lengths
         )
+
+
+def _soup(
+    scene: Scene, meshes: npt.ArrayLike | None, cell: float, most: float
+) -> tuple[Floats, Indices, Indices | None]:
+    """The vertices and finite triangles to cast at, and the scene's face behind each (None: all, in order)."""
+    chosen = None if meshes is None else np.unique(np.asarray(meshes, np.int64))
+    if cell > 0:
+        return coarsened(scene, np.arange(scene.n_meshes) if chosen is None else chosen, cell, most)
+    part, faces = scene, None
+    if chosen is not None:
+        part = scene.select(chosen)
+        shift = scene.face_offsets[chosen] - part.face_offsets[:-1]
+        faces = (np.arange(part.n_triangles) + np.repeat(shift, np.diff(part.face_offsets))).astype(np.int32)
+    indices, vertices = part.short_global_faces(), part.vertices
+    finite = np.asarray(np.isfinite(vertices).all(axis=1))
+    if not finite.all():
+        sound = finite[indices].all(axis=1)
+        indices = indices[sound]
+        faces = np.flatnonzero(sound).astype(np.int32) if faces is None else faces[sound]
+    return vertices, indices, faces

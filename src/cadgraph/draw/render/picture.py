@@ -16,10 +16,11 @@ from cadgraph.draw.render.camera import Camera
 from cadgraph.draw.render.caster import Caster, Hits, TwoCasters
 from cadgraph.draw.render.color import Colors, source_colors
 from cadgraph.draw.render.crease import CornerNormals
+from cadgraph.draw.render.fineness import Fineness
 from cadgraph.draw.render.light import Lamps, lamps, light, open_air
 from cadgraph.draw.render.shading import Haze, Layer, background, compose, shade
 from cadgraph.draw.render.surface import Surfaces, Viewport, meet
-from cadgraph.model.scene import Floats, Scene, mesh_of_face, mesh_of_vertex
+from cadgraph.model.scene import Floats, Scene
 
 __all__ = ["Look", "Paint", "Renderer"]
 
@@ -29,6 +30,7 @@ Singles = npt.NDArray[np.float32]
 _KEPT_CASTERS = 4
 _MOST_THREADS = 16
 _GHOST_SAMPLES = 2  # nobody looks closely at what is only hinted at
+_SHARE, _GHOST_SHARE = 0.75, 1.0  # [px] of the nearest mesh: what is smaller needn't be told apart; among ghosts
 
 
 @dataclass(frozen=True)
@@ -85,11 +87,13 @@ class Renderer:
             raise ValueError("no picture of an empty scene: it has no triangles")
         self.scene = scene
         self.threads = threads or min(_MOST_THREADS, os.cpu_count() or 1)
-        self.mesh_of_face = mesh_of_face(scene).astype(np.int32)
+        self.mesh_of_face = np.repeat(np.arange(scene.n_meshes, dtype=np.int32), np.diff(scene.face_offsets))
         self.normals = CornerNormals(scene, self.threads)
-        self._casters: OrderedDict[bytes, Caster] = OrderedDict()
+        self._casters: OrderedDict[tuple[bytes, float], Caster] = OrderedDict()
         self._lock = threading.Lock()
-        self._everything: Caster | None = None
+        self._everything: dict[float, Caster] = {}
+        self._fixed: Caster | None = None
+        self._fineness = Fineness(scene)
 
     def moved(self, scene: Scene, meshes: npt.ArrayLike) -> Renderer:
         """Draws the same scene with some of its meshes elsewhere, quicker than a new one would.
@@ -106,23 +110,34 @@ class Renderer:
         chosen = np.unique(np.asarray(meshes, np.int64))
         other = Renderer(scene, self.threads)
         other.normals = self.normals.moved(scene, chosen)
-        still = self.caster(np.setdiff1d(np.arange(scene.n_meshes), chosen))
-        other._everything = TwoCasters(still, Caster(scene, chosen)) if len(chosen) else still
+        still = self.caster(np.setdiff1d(np.arange(scene.n_meshes), chosen), 0.0)
+        other._fixed = TwoCasters(still, Caster(scene, chosen)) if len(chosen) else still
         return other
 
-    def caster(self, meshes: npt.ArrayLike | None = None) -> Caster:
+    def caster(self, meshes: npt.ArrayLike | None = None, cell: float | None = None) -> Caster:
         """What casts rays at these meshes (all by default); the last few are kept.
+
+        Args:
+            meshes: ``(n,)``.
+            cell: what may be left out of many meshes because it is smaller [m]; by default so much that pictures of
+                them from afar don't show it.
 
         Raises:
             ValueError: they have no finite triangle.
         """
+        chosen = None if meshes is None else np.unique(np.asarray(meshes, np.int64))
+        if chosen is None or len(chosen) == self.scene.n_meshes:
+            if self._fixed is not None:
+                return self._fixed
+            chosen = None
+        cell, most = self._fineness.steps(chosen, cell)
         with self._lock:
-            chosen = None if meshes is None else np.unique(np.asarray(meshes, np.int64))
-            if chosen is None or len(chosen) == self.scene.n_meshes:
-                self._everything = self._everything or Caster(self.scene)
-                return self._everything
-            key = chosen.tobytes()
-            found = self._casters.pop(key, None) or Caster(self.scene, chosen)
+            if chosen is None:
+                if cell not in self._everything:
+                    self._everything = {cell: Caster(self.scene, None, cell, most)}
+                return self._everything[cell]
+            key = chosen.tobytes(), cell
+            found = self._casters.pop(key, None) or Caster(self.scene, chosen, cell, most)
             self._casters[key] = found
             while len(self._casters) > _KEPT_CASTERS:
                 self._casters.popitem(last=False)
@@ -130,11 +145,8 @@ class Renderer:
 
     def points(self, meshes: npt.ArrayLike | None = None) -> Floats:
         """``(n, 3)`` the finite vertices of these meshes (all by default) [m], for framing."""
-        vertices = self.scene.vertices
-        if meshes is not None:
-            wanted = np.zeros(self.scene.n_meshes, bool)
-            wanted[np.asarray(meshes, np.int64)] = True
-            vertices = vertices[wanted[mesh_of_vertex(self.scene)]]
+        scene = self.scene if meshes is None else self.scene.select(np.unique(np.asarray(meshes, np.int64)))
+        vertices = scene.vertices
         finite = np.isfinite(vertices).all(axis=1)
         return vertices if finite.all() else vertices[finite]
 
@@ -175,7 +187,8 @@ class Renderer:
         colors = np.array([paint.colors for paint in paints], np.float32)
         none = np.zeros(self.scene.n_meshes, bool)
         hatched = np.array([none if paint.hatched is None else paint.hatched for paint in paints])
-        caster = self.caster(np.flatnonzero(~ghosted & drawn) if ghosts else None)
+        solid_meshes = np.flatnonzero(~ghosted & drawn) if ghosts else None
+        caster = self.caster(solid_meshes, self._fineness.wanted(camera, solid_meshes, _SHARE))
         surfaces = self.surfaces(port, caster, look.samples, lit=look.sky_rays > 0)
         seen = open_air(port.width * port.height)
         if look.sky_rays:
@@ -197,12 +210,20 @@ class Renderer:
 
         return meet(port, cast, self.mesh_of_face, self.normals.ready, samples, lit, self.threads)
 
+    def _around(self, camera: Camera) -> Caster:
+        """What casts rays at all meshes, or only at those in sight where they have to be told apart better."""
+        if self._fixed is not None or not self._fineness.many(None):
+            return self.caster()
+        cell = self._fineness.wanted(camera, None, _GHOST_SHARE)
+        taken, _ = self._fineness.steps(None, cell)
+        return self.caster(None if taken == self._fineness.usual(None) else self._fineness.in_sight(camera), cell)
+
     def _ghosts(
         self, port: Viewport, lights: Lamps, colors: Colors, left_out: Bools, look: Look, behind: Singles
     ) -> Layer:
         """The meshes that are only hinted at, as far as none of the others stands before them."""
         samples = min(look.samples, _GHOST_SAMPLES)
-        surfaces = self.surfaces(port, self.caster(), samples)
+        surfaces = self.surfaces(port, self._around(port.camera), samples)
         grey = colors.mean(axis=2, keepdims=True)
         # Half way to grey, then most of the way to white: still a hint of what it is.
         pale = (0.72 + 0.2 * (colors + grey) / 2).astype(np.float32)

@@ -94,12 +94,15 @@ def shade(
         np.empty((len(albedo), n, 3), np.float32), np.empty(n, np.float32), np.empty(n, np.float32),
         np.ones(n, np.float32),
     )  # fmt: skip
+    crowd = np.zeros((port.height + 1, port.width + 1), np.int32)
+    edges = (surfaces.slot >= 0).reshape(port.height, port.width)
+    np.cumsum(np.cumsum(edges, axis=0, dtype=np.int32), axis=1, out=crowd[1:, 1:])
     fewer = min(1.0, samples / 3 + 0.2) if samples != 2 else 1.0
     in_chunks(
         n,
         lambda first, last: _shade(
             port.view, port.width, port.height, first, last, surfaces, seen, lights, albedo, hatched, left_out,
-            samples, lines * fewer, haze, behind, layer,
+            samples, lines * fewer, crowd, haze, behind, layer,
         ),
         threads,
     )  # fmt: skip
@@ -136,7 +139,7 @@ _TABLE = np.round(to_srgb(np.linspace(0, 1, _LEVELS)) * 255).astype(np.uint8)
 @compiled
 def _shade(
     view: Any, width: int, height: int, first: int, last: int, surfaces: Any, seen: Any, lights: Any, albedo: Any,
-    hatched: Any, left_out: Any, samples: int, lines: float, haze: Any, behind: Any, layer: Any,
+    hatched: Any, left_out: Any, samples: int, lines: float, crowd: Any, haze: Any, behind: Any, layer: Any,
 ) -> None:  # fmt: skip
     # Single arrays from here on: the compiler counts the references to each array of a tuple at every call.
     mesh_of, normal, depth, slot = surfaces.mesh, surfaces.normal, surfaces.depth, surfaces.slot
@@ -154,7 +157,7 @@ def _shade(
             layer.floor[p] = 1.0 - shadow * seen.fade[p]
         layer.depth[p], layer.cover[p] = np.inf, 0.0
         if slot[p] >= 0:
-            strength = lines * _thinning(width, height, row, column, slot) if lines > 0 else 0.0
+            strength = lines * _thinning(width, height, row, column, crowd) if lines > 0 else 0.0
             if strength > 0:
                 _lines(view, width, height, row, column, samples, mesh_of, normal, depth, slot, grid_mesh,
                        grid_normal, grid_depth, left_out, near, dark)  # fmt: skip
@@ -282,14 +285,21 @@ def _nearby(
 
 
 @compiled
-def _thinning(width: int, height: int, row: int, column: int, slot: Any) -> float:
-    """Factor on the lines: fainter where they crowd, so that dense places don't turn black."""
-    edges, count = 0, 0
-    for r in range(max(0, row - _CROWD), min(height, row + _CROWD + 1)):
-        for c in range(max(0, column - _CROWD), min(width, column + _CROWD + 1)):
-            edges += slot[r * width + c] >= 0
-            count += 1
-    return 1.0 - 0.8 * min(1.0, max(0.0, (edges / count - _CALM) / (_CROWDED - _CALM)))
+def _thinning(width: int, height: int, row: int, column: int, crowd: Any) -> float:
+    """Factor on the lines: fainter where they crowd, so that dense places don't turn black.
+
+    Args:
+        width: of the picture [px].
+        height: of the picture [px].
+        row: of the pixel.
+        column: of the pixel.
+        crowd: ``(height + 1, width + 1)`` how many pixels above and to the left of each corner are at edges.
+    """
+    top, bottom = max(0, row - _CROWD), min(height, row + _CROWD + 1)
+    left, right = max(0, column - _CROWD), min(width, column + _CROWD + 1)
+    edges = crowd[bottom, right] - crowd[top, right] - crowd[bottom, left] + crowd[top, left]
+    count = (bottom - top) * (right - left)
+    return float(1.0 - 0.8 * min(1.0, max(0.0, (edges / count - _CALM) / (_CROWDED - _CALM))))
 
 
 @compiled

@@ -7,6 +7,7 @@ from collections import Counter
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
+from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
@@ -23,7 +24,7 @@ from cadgraph.draw.render.picture import Look, Paint, Renderer
 from cadgraph.draw.render.views import three_quarter_view
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Cluster, Connected, Edge, Junction, Part, Point, Related, Terminal, Unit
-from cadgraph.model.scene import Ints, Scene
+from cadgraph.model.scene import Floats, Ints, Scene
 
 __all__ = ["Picture", "cluster_colors", "draw_pictures", "kind_words", "largest_first"]
 
@@ -65,16 +66,54 @@ class Picture:
 
 @dataclass(frozen=True)
 class _Ready:
-    """What all pictures are drawn from."""
+    """What all pictures are drawn from.
+
+    Args:
+        scene: that the graph was made from.
+        graph: the finished graph.
+        config: of the report.
+        renderer: of the scene.
+        look: how pictures are drawn.
+        parts: all of the graph.
+        row_of_mesh: ``(n_meshes,)`` each mesh's part among these, -1 where it has none.
+        colors: by group.
+        unit_colors: by unit type.
+    """
 
     scene: Scene
     graph: SceneGraph
     config: ReportConfig
     renderer: Renderer
     look: Look
-    part_of_mesh: list[Part | None]
+    parts: list[Part]
+    row_of_mesh: Ints
     colors: dict[str, str]
     unit_colors: dict[str, str]
+
+    @cached_property
+    def kind_of_mesh(self) -> Ints:
+        """``(n_meshes,)`` row of a mesh's group among the colours; then one for the ground, and one for the rest."""
+        groups = {group: row for row, group in enumerate(self.colors)}
+        ground, rest = len(groups), len(groups) + 1
+        kinds = [groups[p.label.group] if p.label is not None else ground if p.ground else rest for p in self.parts]
+        return np.array([*kinds, rest], np.int64)[self.row_of_mesh]
+
+    @cached_property
+    def heights(self) -> tuple[float, float]:
+        """Of the lowest and the highest point [m]."""
+        heights = self.renderer.points()[:, 2]
+        return float(heights.min()), float(heights.max())
+
+    def meshes_of(self, members: set[str]) -> Bools:
+        """``(n_meshes,)`` whether a mesh belongs to one of these parts."""
+        inside = np.zeros(len(self.parts) + 1, bool)
+        inside[[self.row_of_part[name] for name in members]] = True
+        return inside[self.row_of_mesh]
+
+    @cached_property
+    def row_of_part(self) -> dict[str, int]:
+        """The row of each part among all, by its id."""
+        return {part.id: row for row, part in enumerate(self.parts)}
 
 
 def draw_pictures(scene: Scene, graph: SceneGraph, config: ReportConfig, progress: Progress = quiet) -> list[Picture]:
@@ -91,13 +130,14 @@ def draw_pictures(scene: Scene, graph: SceneGraph, config: ReportConfig, progres
         first.
         None at all if the scene has nothing to draw.
     """
-    if not scene.n_triangles or not np.isfinite(scene.vertices).all(axis=1).any():
+    if not scene.n_triangles or not np.isfinite(_own_vertices(scene)).all(axis=1).any():
         return []
-    owner = {mesh: part for part in graph.parts() for mesh in part.meshes}
+    parts = graph.parts()
+    owner = {mesh: row for row, part in enumerate(parts) for mesh in part.meshes}
     colors = group_colors(graph)
     ready = _Ready(
-        scene, graph, config, Renderer(scene), Look(samples=config.samples), [owner.get(p) for p in scene.paths],
-        colors, color_of_unit_type(graph, colors),
+        scene, graph, config, Renderer(scene), Look(samples=config.samples), parts,
+        np.array([owner.get(path, -1) for path in scene.paths], np.int64), colors, color_of_unit_type(graph, colors),
     )  # fmt: skip
     shown = _shown_meshes(ready)
     camera = _camera(ready, shown, three_quarter_view(ready.renderer, shown, aspect=config.width / config.height))
@@ -124,6 +164,13 @@ def draw_pictures(scene: Scene, graph: SceneGraph, config: ReportConfig, progres
             if picture is not None:
                 pictures.append(picture)
     return pictures
+
+
+def _own_vertices(scene: Scene) -> Floats:
+    """``(n, 3)`` the vertices of all shapes that meshes of the scene have, each once."""
+    if scene.placement is None:
+        return scene.shapes.vertices
+    return scene.shapes.select(np.unique(scene.placement.shape)).vertices
 
 
 def largest_first(clusters: Sequence[Cluster]) -> list[Cluster]:
@@ -179,12 +226,11 @@ def _as_it_is(ready: _Ready, camera: Camera, image: Image.Image) -> Picture:
 
 
 def _cluster_paint(ready: _Ready) -> npt.NDArray[np.float32]:
-    linear = {cluster: from_hex(color) for cluster, color in cluster_colors(ready.graph).items()}
-    paint = np.tile(from_hex(BACKDROP), (ready.scene.n_meshes, 1))
-    for mesh, part in enumerate(ready.part_of_mesh):
-        cluster = ready.graph.cluster_of(part) if part is not None else None
-        if cluster is not None:
-            paint[mesh] = linear[cluster.id]
+    rows = {cluster: row for row, cluster in enumerate(cluster_colors(ready.graph))}
+    found = (ready.graph.cluster_of(part) for part in ready.parts)
+    row_of_part = [len(rows) if cluster is None else rows[cluster.id] for cluster in found]
+    colors = np.array([*map(from_hex, cluster_colors(ready.graph).values()), from_hex(BACKDROP)], np.float32)
+    paint: npt.NDArray[np.float32] = colors[np.array([*row_of_part, len(rows)])[ready.row_of_mesh]]
     return paint
 
 
@@ -209,7 +255,7 @@ def _by_cluster(ready: _Ready, camera: Camera, image: Image.Image, others: bool)
 def _structure(ready: _Ready, cluster: Cluster, title: str, overview: Camera, size: float) -> Picture | None:
     graph, renderer = ready.graph, ready.renderer
     members = {part.id for part in graph.parts(cluster=cluster.id)}
-    inside = np.array([part is not None and part.id in members for part in ready.part_of_mesh])
+    inside = ready.meshes_of(members)
     meshes = np.flatnonzero(inside & (np.diff(ready.scene.face_offsets) > 0))
     if not len(ready.renderer.points(meshes)):
         return None
@@ -254,33 +300,23 @@ def _edge_word(edges: Sequence[Edge]) -> str:
 
 def _grounded(ready: _Ready, meshes: Ints) -> Look:
     """A floor only where the structure stands on the scene's own ground: else its shadow would hang in the air."""
-    everything, structure = ready.renderer.caster(), ready.renderer.caster(meshes)
-    height = everything.high[2] - everything.low[2]
-    return replace(ready.look, floor=bool(structure.low[2] - everything.low[2] < 0.1 * height))
+    low, high = ready.heights
+    lowest = float(ready.renderer.points(meshes)[:, 2].min())
+    return replace(ready.look, floor=lowest - low < 0.1 * (high - low))
 
 
 def _group_paint(
     ready: _Ready, inside: Bools | None = None
 ) -> tuple[npt.NDArray[np.float32], Bools, tuple[LegendEntry, ...]]:
     """Colours and stripes of all meshes, and the legend of those inside."""
-    n = ready.scene.n_meshes
-    paint, hatched = np.tile(from_hex(UNLABELLED), (n, 1)), np.zeros(n, bool)
-    linear = {group: from_hex(color) for group, color in ready.colors.items()}
-    used: set[str] = set()
-    for mesh, part in enumerate(ready.part_of_mesh):
-        counts = inside is None or inside[mesh]
-        if part is not None and part.label is not None:
-            paint[mesh] = linear[part.label.group]
-            if counts:
-                used.add(part.label.group)
-        elif part is not None and part.ground:
-            paint[mesh] = from_hex(BACKDROP)
-        else:
-            hatched[mesh] = True
-    legend = [LegendEntry(color, group) for group, color in ready.colors.items() if group in used]
-    if (hatched if inside is None else hatched & inside).any():
+    kinds, ground = ready.kind_of_mesh, len(ready.colors)
+    colors = [*ready.colors.values(), BACKDROP, UNLABELLED]
+    hatched = kinds > ground
+    used = set(np.unique(kinds if inside is None else kinds[inside]).tolist())
+    legend = [LegendEntry(color, group) for row, (group, color) in enumerate(ready.colors.items()) if row in used]
+    if ground + 1 in used:
         legend.append(LegendEntry(UNLABELLED, "unlabelled", hatched=True))
-    return paint, hatched, tuple(legend)
+    return np.array([from_hex(color) for color in colors], np.float32)[kinds], hatched, tuple(legend)
 
 
 def _untagged(wanted: int, tagged: int) -> str:
@@ -338,13 +374,13 @@ def _place(ready: _Ready, name: str) -> Point:
 
 
 def _local(ready: _Ready, point: Point) -> Point:
-    x, y, z = (float(c) for c in np.asarray(point) - ready.scene.origin)
-    return x, y, z
+    x, y, z = ready.scene.origin.tolist()
+    return point[0] - x, point[1] - y, point[2] - z
 
 
 def _shown_meshes(ready: _Ready) -> Ints:
     """What the overviews are framed on: everything but the ground, unless there is nothing else."""
-    shown = np.array([part is None or not part.ground for part in ready.part_of_mesh], bool)
+    shown = np.array([*(not part.ground for part in ready.parts), True], bool)[ready.row_of_mesh]
     filled = np.diff(ready.scene.face_offsets) > 0
     return np.flatnonzero(shown & filled if (shown & filled).any() else filled)
 
