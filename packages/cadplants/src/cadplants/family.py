@@ -171,7 +171,7 @@ def as_assembly(family: Family, model: Model | Device | Assembly, style: Modelin
         parts = _in_one(family, parts)
     elif grain == "few":
         parts = _in_few(parts)
-    components = tuple(_component(part, family, style, unit, grain) for part in parts)
+    components = tuple(replace(_component(part, family, style, unit, grain), params=model.params) for part in parts)
     units = (Unit(unit, family.unit, model.kind or family.whole),) if unit and family.unit else ()
     return Assembly(components, tuple((0, k) for k in range(1, len(components))), units)
 

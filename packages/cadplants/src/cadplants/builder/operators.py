@@ -181,6 +181,8 @@ class Chain(Gear):
 
     def _rim(self, t: Table, size: float) -> Sequence[Solid]:
         teeth = around(box((0.3 * size, 0.02, 0.012), (0.1 * size, 0, 0)), 12, size)
-        loop = [((size + 0.01) * s, -d, 0) for s, d in ((-1, 0), (-1, 0.7), (-0.6, 0.76), (0.6, 0.76), (1, 0.7), (1, 0))]
+        loop = [
+            ((size + 0.01) * s, -d, 0) for s, d in ((-1, 0), (-1, 0.7), (-0.6, 0.76), (0.6, 0.76), (1, 0.7), (1, 0))
+        ]
         hub = handwheel(round(size, 6), 0.01, 4, 0.02, 0.02, 0.006, 24)
         return [torus(size, 0.012, t.n(size, 16)), teeth, hub, rope(loop, 0.004, 6)]

@@ -301,6 +301,22 @@ class Params:
             raise ValueError(f"{unknown[0]}: no parameter; there are {', '.join(specs) or 'none'}")
         return cls(**values)
 
+    def rows(self, within: str = "") -> list[tuple[str, str, str, str]]:
+        """What people read of all parameters: name, value, what it can be, what it is; pieces' own below them.
+
+        Args:
+            within: name of the piece that these are of, for their names.
+        """
+        found = []
+        for name, spec in self.fields().items():
+            value, unit = getattr(self, name), f" [{spec.unit}]" if spec.unit else ""
+            if isinstance(value, Params):
+                found.append((within + name, value.kind or type(value).__name__.lower(), spec.limits, spec.about))
+                found += value.rows(f"{within}{name}.")
+            elif value is not None:
+                found.append((within + name, _told(value), spec.limits, spec.about + unit))
+        return found
+
     def to_json(self) -> dict[str, Any]:
         """All parameters as plain JSON values, pieces as objects of their own."""
         said = {"kind": self.kind} if self.kind else {}
@@ -316,6 +332,14 @@ def _with_inner(name: str, piece: Any, source: Source, inner: Mapping[str, Any])
         return type(piece).draw(source, **known, **inner)
     except ValueError as error:
         raise ValueError(f"{name}.{error}") from None
+
+
+def _told(value: Any) -> str:
+    if isinstance(value, tuple):
+        return ", ".join(map(_told, value))
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    return f"{value:.4g}" if isinstance(value, float) else str(value)
 
 
 def _plain(value: Any) -> Any:

@@ -13,7 +13,7 @@ from cadgraph.model.scene import Floats
 from cadgraph.model.vocabulary import default_vocabulary
 from cadplants.family import Model, Part, Port, placed
 from cadplants.flange import face_shell, plate_thickness
-from cadplants.mesh_ops import Solid, merge, moved, revolve, weld
+from cadplants.mesh_ops import Solid, merge, revolve, weld
 from cadplants.modeling_style import ModelingStyle
 from cadplants.plant import Turning
 from cadplants.primitives import AXES, around, cylinder, hexagon
@@ -41,8 +41,8 @@ _MATERIALS: Mapping[str, str] = {
         "gauge": "gauge case, gauge, flow meter",
         "dial": "gauge face, gauge glass, filter, radiator, camera, lamp",
         "needle": "gauge needle",
-        "steel": "base plate, beam, brace, bracket, column, gusset plate, plate, post, saddle, skid frame, stair tread, "
-        "tank leg, pump base, grating",
+        "steel": "base plate, beam, brace, bracket, column, gusset plate, plate, post, saddle, skid frame, "
+        "stair tread, tank leg, pump base, grating",
         "clamp": "clamp, pipe hanger, u-bolt, conduit, platform, lifting lug",
         "rubber": "cable, hose, caster",
         "tank": "shell, dished head, nozzle, manway, skirt, tank, boiler, heat exchanger, separator",
@@ -153,8 +153,8 @@ class Table:
             name: of the vocabulary, which says its group.
             solids: in the frame; none adds nothing.
             of: kind of material; the usual one of the name if "".
-            own: whether it is of the device's own bundle; parts of the device's group, but for wheels and levers, and small fasteners are
-                if None.
+            own: whether it is of the device's own bundle; if None parts of the device's group are, but for wheels and
+                levers, and small fasteners.
             fine: whether a style without fasteners leaves it out; fasteners if None.
             turns: what of it turns, in the frame.
             front: unit vector out of what is read on it, in the frame.
