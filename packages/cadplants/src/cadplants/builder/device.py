@@ -105,8 +105,7 @@ class Maker:
             source = Apart(source)
         elif isinstance(source, np.random.Generator):
             source = OneStream(source)
-        more = {"height": height[0]} if height else {}
-        return self.device.draw(source, **{"dn": dn, **more, **told})
+        return self.device.draw(source, {"dn": dn, **({"height": height[0]} if height else {})}, **told)
 
 
 def families_of(*devices: type[Device]) -> Sequence[Family]:

@@ -101,6 +101,7 @@ class Field:
         accept: what a given value (maybe text) stands for; raises ``ValueError`` where it can't be.
         when: whether the device has it at all, by the fields before it; None: always.
         otherwise: its value where it has not.
+        piece: the class of a piece with parameters of its own.
     """
 
     about: str
@@ -110,6 +111,7 @@ class Field:
     accept: Callable[[Any, Any], Any]
     when: When | None = None
     otherwise: Any = None
+    piece: type[Params] | None = None
 
 
 def _field(spec: Field) -> Any:
@@ -117,18 +119,28 @@ def _field(spec: Field) -> Any:
 
 
 def between(
-    low: float, high: float, about: str, unit: str = "", *, when: When | None = None, otherwise: float = 0.0
+    low: float | Callable[[Any], float],
+    high: float | Callable[[Any], float],
+    about: str,
+    unit: str = "",
+    *,
+    when: When | None = None,
+    otherwise: float = 0.0,
 ) -> float:
-    """A number, all between two as likely."""
+    """A number, all between two as likely; these may follow from the fields before."""
 
-    def accept(value: Any, _: Any) -> float:
-        number = float(value)
-        if not low <= number <= high:
-            raise ValueError(f"give {low:g} to {high:g}")
+    def bounds(before: Any) -> tuple[float, float]:
+        return (low(before) if callable(low) else low), (high(before) if callable(high) else high)
+
+    def accept(value: Any, before: Any) -> float:
+        number, (least, most) = float(value), bounds(before)
+        if not least <= number <= most:
+            raise ValueError(f"give {least:g} to {most:g}")
         return number
 
-    limits = f"{low:g} to {high:g}"
-    return _field(Field(about, unit, limits, lambda s, _: float(s.rng.uniform(low, high)), accept, when, otherwise))  # type: ignore[no-any-return]
+    limits = "by the fields before" if callable(low) or callable(high) else f"{low:g} to {high:g}"
+    draw = lambda source, before: float(source.rng.uniform(*bounds(before)))  # noqa: E731
+    return _field(Field(about, unit, limits, draw, accept, when, otherwise))  # type: ignore[no-any-return]
 
 
 def whole(low: int, high: int, about: str, *, when: When | None = None, otherwise: int = 0) -> int:
@@ -182,10 +194,15 @@ def among(
 
     def accept(value: Any, before: Any) -> T:
         some = choices(before)
-        # A size that no draw would take may be asked for, a shape that nobody has drawn may not.
         for item in some:
             if value == item or str(value) == str(item):
                 return item
+        if all(isinstance(item, float) for item in some):
+            # A size that no draw takes may be asked for, as far as it lies among those that draws take.
+            number, least, most = float(value), min(some), max(some)  # type: ignore[type-var]
+            if least <= number <= most:  # type: ignore[operator]
+                return number  # type: ignore[return-value]
+            raise ValueError(f"give {least:g} to {most:g}")
         raise ValueError(f"give {', '.join(str(item) for item in dict.fromkeys(some))}")
 
     limits = "by the fields before" if callable(items) else ", ".join(str(item) for item in dict.fromkeys(items))
@@ -227,8 +244,8 @@ def nested(
             return value  # type: ignore[return-value]
         raise ValueError("give its own fields, as name.field=value")
 
-    limits = "see its own fields"
-    return _field(Field(about, "", limits, sample, accept, when, otherwise))  # type: ignore[no-any-return]
+    piece = kind if isinstance(kind, type) else None
+    return _field(Field(about, "", "see its own", sample, accept, when, otherwise, piece))  # type: ignore[no-any-return]
 
 
 def several(
@@ -269,36 +286,39 @@ class Params:
         return {f.name: f.metadata["spec"] for f in dataclasses.fields(cls)}  # type: ignore[arg-type]
 
     @classmethod
-    def draw(cls: type[P], source: Source | Rng, **given: Any) -> P:
+    def draw(cls: type[P], source: Source | Rng, fixed: Mapping[str, Any] | None = None, **given: Any) -> P:
         """Draws what is not given.
 
         Args:
             source: of random numbers; of a plain generator all fields are drawn one after the other.
-            given: values by name, of pieces as ``"drive.length"``; text is understood.
+            fixed: values by name that the one who builds with the piece sets, whatever a draw could be.
+            given: values by name that a user wants, of pieces as ``"drive.length"``; text is understood.
 
         Raises:
-            ValueError: a name is not known, or a value can't be.
+            ValueError: a name is not known, or a given value can't be.
         """
         source = OneStream(source) if isinstance(source, np.random.Generator) else source
-        specs = cls.fields()
+        specs, fixed = cls.fields(), fixed or {}
+        unknown = [key for key in (*given, *fixed) if key.split(".")[0] not in specs]
+        if unknown:
+            raise ValueError(f"{unknown[0]}: no parameter; there are {', '.join(specs) or 'none'}")
         values: dict[str, Any] = {}
         for name, spec in specs.items():
             before = SimpleNamespace(**values)
-            inner = {key.split(".", 1)[1]: v for key, v in given.items() if key.startswith(f"{name}.")}
-            if name in given:
-                try:
-                    values[name] = spec.accept(given[name], before)
-                except (TypeError, ValueError) as error:
-                    raise ValueError(f"{name}={given[name]}: {error}") from None
+            inner = _below(name, given), _below(name, fixed)
+            if name in fixed:
+                values[name] = fixed[name]
+            elif name in given:
+                values[name] = _accepted(name, spec, given[name], before)
             elif spec.when is not None and not spec.when(before):
                 values[name] = spec.otherwise
+            elif any(inner) and spec.piece is not None:
+                values[name] = _draw_piece(name, spec.piece, source.of(name), *inner)
+                continue
             else:
                 values[name] = spec.sample(source.of(name), before)
-            if inner:
-                values[name] = _with_inner(name, values[name], source.of(name), inner)
-        unknown = [key for key in given if key.split(".")[0] not in specs]
-        if unknown:
-            raise ValueError(f"{unknown[0]}: no parameter; there are {', '.join(specs) or 'none'}")
+            if any(inner):
+                values[name] = _with_inner(name, values[name], source.of(name), *inner)
         return cls(**values)
 
     def rows(self, within: str = "") -> list[tuple[str, str, str, str]]:
@@ -323,13 +343,35 @@ class Params:
         return said | {name: _plain(getattr(self, name)) for name in self.fields()}
 
 
-def _with_inner(name: str, piece: Any, source: Source, inner: Mapping[str, Any]) -> Any:
-    """A piece with some of its own parameters given."""
-    if not isinstance(piece, Params):
-        raise ValueError(f"{name}.{next(iter(inner))}: the device has no {name} with parameters of its own")
-    known = {key: getattr(piece, key) for key in piece.fields() if not any(i.split(".")[0] == key for i in inner)}
+def _below(name: str, given: Mapping[str, Any]) -> dict[str, Any]:
+    """What is given of a piece, by the piece's own names."""
+    return {key.split(".", 1)[1]: value for key, value in given.items() if key.startswith(f"{name}.")}
+
+
+def _accepted(name: str, spec: Field, value: Any, before: Any) -> Any:
     try:
-        return type(piece).draw(source, **known, **inner)
+        return spec.accept(value, before)
+    except (TypeError, ValueError) as error:
+        raise ValueError(f"{name}={value}: {error}") from None
+
+
+def _with_inner(
+    name: str, piece: Any, source: Source, given: Mapping[str, Any], fixed: Mapping[str, Any] | None = None
+) -> Any:
+    """A piece that was drawn already, with some of its own parameters set."""
+    if not isinstance(piece, Params):
+        first = next(iter({**given, **(fixed or {})}))
+        raise ValueError(f"{name}.{first}: the device has no {name} with parameters of its own")
+    told = {key.split(".")[0] for key in (*given, *(fixed or {}))}
+    kept = {key: getattr(piece, key) for key in piece.fields() if key not in told}
+    return _draw_piece(name, type(piece), source, given, {**kept, **(fixed or {})})
+
+
+def _draw_piece(
+    name: str, kind: type[Params], source: Source, given: Mapping[str, Any], fixed: Mapping[str, Any]
+) -> Params:
+    try:
+        return kind.draw(source, fixed, **given)
     except ValueError as error:
         raise ValueError(f"{name}.{error}") from None
 
