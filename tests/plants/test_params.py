@@ -111,6 +111,7 @@ def test_people_read_every_parameter_with_its_unit_and_what_it_can_be():
     rows = {name: rest for name, *rest in Coil.draw(Apart(4), valve=True).rows()}
     assert rows["knob.radius"][1:] == ["0.02 to 0.04", "of the knob [m]"]
     assert set(rows) == {"dn", *Coil.fields(), "knob.radius", "knob.lobes"}
+    assert rows["knob"][0] == "knob"
 
 
 def test_a_class_is_a_family_whose_models_say_what_they_were_built_from():

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 from rich.markup import escape
-from rich.table import Table
+from rich.table import Column, Table
 
 from cadgraph.cli.screen import err, out
 from cadgraph.errors import FormatError
@@ -188,7 +188,7 @@ def _tell_parameters(family: Family, drawn: Device | None) -> None:
     if drawn is None:
         out.print(f"no parameters: give --seed, --style and --set dn={usual_size(family)}")
         return
-    table = Table("parameter", "here", "can be", "what it is", box=None, pad_edge=False)
+    table = Table(Column("parameter", no_wrap=True), "here", "can be", "what it is", box=None, pad_edge=False)
     for row in drawn.rows():
         table.add_row(*map(escape, row))
     out.print(table)

@@ -331,7 +331,8 @@ class Params:
         for name, spec in self.fields().items():
             value, unit = getattr(self, name), f" [{spec.unit}]" if spec.unit else ""
             if isinstance(value, Params):
-                found.append((within + name, value.kind or type(value).__name__.lower(), spec.limits, spec.about))
+                # Of a piece that can be of several kinds, which one it is.
+                found += [(within + name, value.kind, spec.limits, spec.about)] if value.kind else []
                 found += value.rows(f"{within}{name}.")
             elif value is not None:
                 found.append((within + name, _told(value), spec.limits, spec.about + unit))
