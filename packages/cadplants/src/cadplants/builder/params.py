@@ -235,16 +235,17 @@ def nested(
     kind: type[P] | Callable[[Source, Any], P], about: str, *, when: When | None = None, otherwise: P | None = None
 ) -> P:
     """A piece with parameters of its own: of one class, or of whichever class a function draws."""
+    make: Any = kind
+    piece: type[Params] | None = kind if isinstance(kind, type) else None
 
-    def sample(source: Source, before: Any) -> P:
-        return kind.draw(source) if isinstance(kind, type) else kind(source, before)
+    def sample(source: Source, before: Any) -> Any:
+        return piece.draw(source) if piece is not None else make(source, before)
 
     def accept(value: Any, before: Any) -> P:
         if isinstance(value, Params):
             return value  # type: ignore[return-value]
         raise ValueError("give its own fields, as name.field=value")
 
-    piece = kind if isinstance(kind, type) else None
     return _field(Field(about, "", "see its own", sample, accept, when, otherwise, piece))  # type: ignore[no-any-return]
 
 
