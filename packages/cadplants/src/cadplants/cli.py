@@ -1,4 +1,4 @@
-"""Generated plants and truth: environment make, check, match, truth-from-usd."""
+"""Generated plants and truth: environment make, device, devices, check, match, truth-from-usd."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 from rich.markup import escape
+from rich.table import Column, Table
 
 from cadgraph.cli.screen import err, out
 from cadgraph.errors import FormatError
@@ -15,7 +16,9 @@ from cadgraph.errors import FormatError
 if TYPE_CHECKING:
     from cadgraph.config import LoadConfig
     from cadgraph.model.truth import Truth
+    from cadplants.builder.device import Device
     from cadplants.defects import Defects
+    from cadplants.family import Family
     from cadplants.writers.plant_file import FileStyle
 
 __all__ = ["plants"]
@@ -140,6 +143,70 @@ def _asked_for(drawn: str | None, defective: float) -> Defects | None:
     spoilt = ("duplicates", "hidden", "flipped", "soup", "degenerate", "gaps")
     shares: dict[str, Any] = dict.fromkeys(spoilt, defective)
     return replace(DEFECTS[drawn] if drawn else Defects(), **shares)
+
+
+@plants.command("device")
+def make_device_file(
+    name: Annotated[str, typer.Argument(metavar="FAMILY", help='Kind and construction, e.g. "ball valve/trunnion".')],
+    output: Annotated[
+        Path | None,
+        typer.Option("--output", "-o", metavar="FILE", help="The scene, e.g. valve.usdc; its suffix is its format."),
+    ] = None,
+    given: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--set", metavar="NAME=VALUE", help="A parameter, e.g. dn=80, drive.length=1.2; as often as needed."
+        ),
+    ] = None,
+    seed: Annotated[int, typer.Option(min=0, help="Of what is not given.")] = 0,
+    style: Annotated[str, typer.Option(help="In whose style it is modelled.")] = "plant-design",
+) -> None:
+    """Generate one device, or without --output say which parameters it has and what they can be."""
+    from cadplants.single_device import draw_parameters, family_called, make_device
+    from cadplants.writers import write_plant
+
+    told = {}
+    for one in given or ():
+        key, equals, value = one.partition("=")
+        if not equals or not key.strip():
+            raise ValueError(f"--set {one}: give a parameter and its value as NAME=VALUE")
+        told[key.strip()] = value.strip()
+    if output is None:
+        _tell_parameters(family_called(name), draw_parameters(name, seed, told))
+        return
+    plant = make_device(name, seed, style, given=told)
+    truth = write_plant(plant, output)
+    out.print(f"wrote {escape(str(output))} and {escape(str(truth))}")
+
+
+def _tell_parameters(family: Family, drawn: Device | None) -> None:
+    """A line for each parameter: its value in this draw, what it can be, what it means."""
+    from cadplants.single_device import usual_size
+
+    sizes = ", ".join(map(str, family.sizes)) if family.place in ("inline", "end", "carrier") else ""
+    out.print(escape(f"{family.name}: {family.group}, {family.place}" + (f", DN {sizes}" if sizes else "")))
+    if drawn is None:
+        out.print(f"no parameters: give --seed, --style and --set dn={usual_size(family)}")
+        return
+    table = Table(Column("parameter", no_wrap=True), "here", "can be", "what it is", box=None, pad_edge=False)
+    for row in drawn.rows():
+        table.add_row(*map(escape, row))
+    out.print(table)
+
+
+@plants.command("devices")
+def list_devices(
+    kind: Annotated[str, typer.Argument(metavar="[KIND]", help="Only those of a kind, e.g. valve, pump.")] = "",
+) -> None:
+    """List the families of devices, with their places and sizes."""
+    from cadplants.taste import ALL_FAMILIES
+
+    some = [family for name, family in sorted(ALL_FAMILIES.items()) if kind.lower() in name]
+    if not some:
+        raise ValueError(f"{kind!r}: no family has this in its name; without it all are listed")
+    for family in some:
+        out.print(escape(f"{family.name}  {family.place}  {family.group}"), soft_wrap=True)
+    out.print(f"{len(some)} families")
 
 
 @plants.command("check")

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 from cadgraph.model.scene import Floats
 from cadplants.mesh_ops import Solid, merge, moved
@@ -78,6 +79,7 @@ class Model:
         ports: faces that lines can be joined to.
         dn: nominal size behind a reducer; 0 as before.
         split: whether the outlet's face of a device in a line may be on another part than the inlet's.
+        params: what it was built from, as plain JSON values; None where that is not recorded.
     """
 
     parts: Sequence[Part]
@@ -87,6 +89,7 @@ class Model:
     ports: tuple[Port, ...] = ()
     dn: int = 0
     split: bool = False
+    params: Mapping[str, Any] | None = None
 
 
 # Nominal size, style, generator (and what a carrier is asked for besides); a builder may also return finished
@@ -168,7 +171,7 @@ def as_assembly(family: Family, model: Model | Device | Assembly, style: Modelin
         parts = _in_one(family, parts)
     elif grain == "few":
         parts = _in_few(parts)
-    components = tuple(_component(part, family, style, unit, grain) for part in parts)
+    components = tuple(replace(_component(part, family, style, unit, grain), params=model.params) for part in parts)
     units = (Unit(unit, family.unit, model.kind or family.whole),) if unit and family.unit else ()
     return Assembly(components, tuple((0, k) for k in range(1, len(components))), units)
 

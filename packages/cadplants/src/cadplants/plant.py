@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import combinations
 from typing import Any
@@ -77,6 +77,8 @@ class Component:
         front: ``(3,)`` unit vector out of what is read on it, in the solid's frame; None where nothing is.
         turns: what of it turns, in the solid's frame: all of it, or pieces of it where a device is one mesh; None where
             nothing does, or where that was not annotated.
+        params: what its device was built from, as plain JSON values, shared by all meshes of that device; None where
+            that is not recorded.
     """
 
     solid: Solid
@@ -95,6 +97,7 @@ class Component:
     gap: float = 0.0
     front: tuple[float, float, float] | None = None
     turns: Turning | None = None
+    params: Mapping[str, Any] | None = field(default=None, compare=False)
 
     @property
     def vertices(self) -> Floats:

@@ -12,6 +12,7 @@ from cadplants.polygon import circle
 from cadplants.transforms import at, looking, spun
 
 __all__ = [
+    "AXES",
     "along",
     "around",
     "ball",
@@ -29,7 +30,7 @@ __all__ = [
     "waves",
 ]
 
-_AXES: dict[str, Floats] = {
+AXES: dict[str, Floats] = {
     "z": np.eye(4),
     "-z": spun("x", np.pi),
     "x": spun("y", np.pi / 2),
@@ -37,6 +38,7 @@ _AXES: dict[str, Floats] = {
     "y": spun("x", -np.pi / 2),
     "-y": spun("x", np.pi / 2),
 }
+"""The poses that lay what was built about z along an axis, by its name."""
 
 _CORNERS = np.array([[x, y, z] for z in (-0.5, 0.5) for x, y in ((-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5))])
 _QUADS = ((0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))
@@ -45,7 +47,7 @@ _SIDES = np.array([t for a, b, c, d in _QUADS for t in ((a, b, c), (a, c, d))], 
 
 def along(axis: str, solid: Solid, x: float = 0.0, y: float = 0.0, z: float = 0.0) -> Solid:
     """What was built about z laid along an axis (``"x"``, ``"-y"``...), then shifted [m]."""
-    return moved(solid, at(x, y, z) @ _AXES[axis])
+    return moved(solid, at(x, y, z) @ AXES[axis])
 
 
 def turned(profile: Sequence[tuple[float, float]], sides: int, phase: float = 0.0) -> Solid:

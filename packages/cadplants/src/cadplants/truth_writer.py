@@ -28,6 +28,7 @@ def truth_of(plant: Plant, paths: Sequence[str] | None = None) -> dict[str, Any]
         "hands": list(plant.styles),
         "meshes": [_mesh(path, c) for path, c in zip(names, plant.components, strict=True)],
         "units": _units(plant, names),
+        **_devices(plant, names),
         "points": [_point(p) for p in plant.points],
         "connections": [_connection(c) for c in plant.connections],
         "lines": [_line(line) for line in plant.lines],
@@ -74,6 +75,21 @@ def _units(plant: Plant, names: Sequence[str]) -> list[dict[str, Any]]:
         }
         for unit in plant.units
     ]
+
+
+def _devices(plant: Plant, names: Sequence[str]) -> dict[str, Any]:
+    """The devices whose parameters are known, each with its meshes; nothing where none are."""
+    meshes: dict[int, list[int]] = {}
+    for index, component in enumerate(plant.components):
+        if component.params is not None:
+            # All meshes of a device share one mapping, and two devices never do.
+            meshes.setdefault(id(component.params), []).append(index)
+    rows = []
+    for members in meshes.values():
+        first = plant.components[members[0]]
+        family, _, build = first.family.partition("/")
+        rows.append({"family": family, "build": build, "params": first.params, "meshes": [names[i] for i in members]})
+    return {"devices": rows} if rows else {}
 
 
 def _turning(plant: Plant, names: Sequence[str]) -> dict[str, dict[str, Any]]:

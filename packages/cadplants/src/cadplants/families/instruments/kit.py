@@ -11,14 +11,30 @@ from dataclasses import replace
 import numpy as np
 
 from cadgraph.model.scene import Floats
+from cadplants.builder.dials import (
+    CASE,
+    CASES,
+    STEM,
+    Dial,
+    DialFace,
+    Gland,
+    Housing,
+    Indicator,
+    Needle,
+    Shank,
+    StandingGauge,
+    case_of,
+    fine_sides,
+    put_down,
+)  # fmt: skip
 from cadplants.families.valves.valve import bolt_circle, disc_flange
-from cadplants.family import Build, Family, Part, fronted, placed
+from cadplants.family import Build, Family, Part, placed
 from cadplants.flange import plate_thickness
 from cadplants.mesh_ops import Solid, extrude, merge, moved
 from cadplants.modeling_style import ModelingStyle
 from cadplants.plant import Turning
 from cadplants.polygon import circle, rounded_rectangle
-from cadplants.primitives import along, around, box, cylinder, dome, hexagon, ring, rod, rope, turned
+from cadplants.primitives import along, box, cylinder, dome, hexagon, ring, rod, rope, turned
 from cadplants.standards import FLANGES, PIPES
 from cadplants.transforms import at, spun
 
@@ -54,8 +70,7 @@ __all__ = [
 ]
 
 FRAME, JOINT, TANK = "Structural element", "Connection assembly", "Tank"
-CASE, STEM = "gauge case", "gauge stem"
-STYLES = ("plain", "safety", "crimped", "cast", "bayonet", "turret")
+STYLES = CASES
 UPRIGHT = spun("x", np.pi / 2)  # what looks to +z then looks to -y, its y axis up
 
 
@@ -74,11 +89,6 @@ def headed(parts: Sequence[Part]) -> list[Part]:
     return placed(parts, spun("y", np.pi / 2))
 
 
-def fine_sides(radius: float, style: ModelingStyle, most: int = 16) -> int:
-    """Sides of a small round thing."""
-    return max(6, min(most, style.round(radius)))
-
-
 def screws(count: int, radius: float, thread: float, low: float, high: float, bundle: str = "") -> Part:
     """Hexagon bolts about z through what lies between two heights [m]."""
     solid = bolt_circle(count, radius, thread, low, high)
@@ -88,96 +98,23 @@ def screws(count: int, radius: float, thread: float, low: float, high: float, bu
 # --- dials ---
 
 
-def case_of(size: float, depth: float, design: str, style: ModelingStyle) -> tuple[Solid, float]:
-    """A round case about z, its back on 0 and its front towards +z, and the radius of its opening [m]."""
-    r, d, n = size / 2, depth, style.round(size / 2)
-    w, floor = 0.9 * r, 0.82 * d
-    hollow = [(w, d), (w, floor)]
-    extra: list[Solid] = []
-    if design == "safety":  # a solid front, and a disc at the back that blows out
-        outline = [(0.96 * r, 0.0), (r, 0.03 * d), (r, 0.86 * d), (1.07 * r, 0.87 * d), (1.07 * r, d)]
-        extra = [cylinder(0.86 * r, -0.003, 0.0005, n), around(box((0.12 * r, 0.2 * r, 0.005)), 3, 0.8 * r)]
-    elif design == "crimped":
-        outline = [(0.8 * r, 0.0), (0.94 * r, 0.05 * d), (r, 0.2 * d), (r, 0.62 * d), (1.05 * r, 0.74 * d)]
-        outline += [(1.06 * r, 0.9 * d), (1.0 * r, d)]
-    elif design == "cast":
-        outline = [(0.72 * r, 0.0), (0.78 * r, 0.12 * d), (r, 0.26 * d), (r, 0.58 * d), (1.13 * r, 0.6 * d)]
-        outline += [(1.13 * r, 0.97 * d), (1.09 * r, d)]
-        extra = [around(cylinder(0.05 * r, 0.9 * d, 1.05 * d, 8), 4, 1.03 * r, np.pi / 4)]
-        extra.append(moved(along("y", cylinder(0.06 * r, -0.2 * r, 0.2 * r, 8)), at(1.16 * r, 0, 0.75 * d)))
-    elif design == "bayonet":
-        outline = [(0.94 * r, 0.0), (r, 0.06 * d), (r, 0.7 * d), (1.05 * r, 0.71 * d), (1.05 * r, 0.98 * d)]
-        outline += [(1.02 * r, d)]
-        extra = [around(box((0.1 * r, 0.22 * r, 0.2 * d), (0, 0, 0.84 * d)), 4, 1.06 * r, 0.3)]
-    elif design == "turret":  # a ring screwed on, a flange at the back
-        outline = [(1.2 * r, 0.0), (1.2 * r, 0.06 * d), (r, 0.08 * d), (0.97 * r, 0.62 * d), (1.06 * r, 0.64 * d)]
-        outline += [(1.1 * r, 0.95 * d), (1.02 * r, d)]
-        extra = [around(box((0.06 * r, 0.1 * r, 0.26 * d), (0, 0, 0.8 * d)), 12, 1.08 * r)]
-    else:
-        outline = [(0.9 * r, 0.0), (r, 0.06 * d), (r, 0.76 * d), (1.06 * r, 0.78 * d), (1.06 * r, 0.97 * d)]
-        outline += [(1.03 * r, d)]
-    return merge([turned([*outline, *hollow], n), *extra]), w
-
-
 def face_of(radius: float, low: float, style: ModelingStyle, rng: np.random.Generator) -> Solid:
     """A round dial plate, its scale raised, or bare [m]."""
-    plate = cylinder(0.985 * radius, low, low + 0.001, style.round(radius))
-    if rng.random() < 0.5:
-        return plate
-    count, long = int(rng.choice([7, 11, 13])), float(rng.uniform(0.1, 0.2)) * radius
-    tick = box((long, 0.03 * radius, 0.0006), (0.85 * radius - long / 2, 0, low + 0.0012))
-    ticks = [moved(tick, spun("z", float(a))) for a in np.linspace(-np.pi / 4, 1.25 * np.pi, count)]
-    return merge([plate, *ticks])
+    return DialFace.draw(rng).solid(radius, low, style)
 
 
 def needle_of(radius: float, low: float, rng: np.random.Generator) -> Solid:
     """A pointer about z: tapered, straight, with a weight or an arrow, at some reading [m]."""
-    r, kind = radius, int(rng.integers(4))
-    wide = float(rng.uniform(0.025, 0.05)) * r
-    if kind == 0:
-        outline = [(-0.25, -wide), (0.78, -0.2 * wide), (0.78, 0.2 * wide), (-0.25, wide)]
-    elif kind == 1:
-        outline = [(-0.1, -0.6 * wide), (0.82, -0.6 * wide), (0.82, 0.6 * wide), (-0.1, 0.6 * wide)]
-    elif kind == 2:
-        outline = [(-0.3, -3 * wide), (-0.18, -3 * wide), (-0.12, -0.7 * wide), (0.8, -0.15 * wide)]
-        outline += [(0.8, 0.15 * wide), (-0.12, 0.7 * wide), (-0.18, 3 * wide), (-0.3, 3 * wide)]
-    else:
-        outline = [(-0.2, -0.7 * wide), (0.6, -0.5 * wide), (0.6, -2.2 * wide), (0.84, 0.0)]
-        outline += [(0.6, 2.2 * wide), (0.6, 0.5 * wide), (-0.2, 0.7 * wide)]
-    # Widths are of r already, lengths are not.
-    shape = np.array([(x * r, y) for x, y in outline])
-    hub = cylinder(float(rng.uniform(0.06, 0.12)) * r, low, low + 0.0035, 10)
-    flat = extrude(shape, low + 0.0005, low + 0.0015)
-    return moved(merge([flat, hub]), spun("z", float(rng.uniform(-0.7, 3.9))))
+    return Needle.draw(rng).solid(radius, low)
 
 
 def dial(
     size: float, style: ModelingStyle, rng: np.random.Generator, design: str = "", deep: float = 0.0
 ) -> list[Part]:
-    """Case, face, needle and maybe glass of an instrument with a round dial (EN 837-1 sizes).
-
-    Args:
-        size: diameter of the case [m].
-        style: that models it.
-        rng: draws what is open.
-        design: one of ``STYLES``; drawn where empty.
-        deep: depth of the case [m]; drawn where 0.
-    """
-    design = design or str(rng.choice(STYLES))
-    if not deep:
-        deep = size * float(rng.uniform(0.5, 0.8) if design == "safety" else rng.uniform(0.28, 0.55))
-    solid, w = case_of(size, deep, design, style)
-    floor = 0.82 * deep
-    parts = [piece(solid, CASE, "gauge"), piece(face_of(w, floor, style, rng), "gauge face", "dial", CASE)]
-    parts.append(pointer(needle_of(w, floor + 0.001, rng)))
-    if rng.random() < 0.15:  # a drag style
-        parts.append(piece(needle_of(0.9 * w, floor + 0.0035, rng), "gauge needle", "handle", CASE))
-    if rng.random() < 0.6:
-        n = style.round(w)
-        flat = cylinder(0.99 * w, 0.93 * deep, 0.93 * deep + 0.002, n)
-        glass = flat if rng.random() < 0.7 else dome(0.99 * w, 0.12 * w, 0.95 * deep, n)
-        parts.append(piece(glass, "gauge glass", "dial", CASE))
-    return fronted(parts)
+    """Case, face, needle and maybe glass of an instrument with a round dial; see ``Dial``."""
+    given = {**({"design": design} if design else {}), **({"deep": deep / size} if deep else {})}
+    drawn = Dial.draw(rng, given)
+    return put_down(style, lambda t: drawn.build(t, size))
 
 
 def upright(parts: Sequence[Part], size: float, top: float, turn: float = 0.0) -> list[Part]:
@@ -187,102 +124,37 @@ def upright(parts: Sequence[Part], size: float, top: float, turn: float = 0.0) -
 
 
 def shank(low: float, high: float, style: ModelingStyle, rng: np.random.Generator, size: float = 0.1) -> Part:
-    """Thread, wrench flats and maybe a collar of a connection about z (G 1/4 or G 1/2) [m]."""
-    square = 0.014 if size < 0.08 else 0.022
-    span, n = high - low, fine_sides(0.4 * square, style)
-    solids = [cylinder(0.45 * square, low, low + 0.6 * span, n)]
-    if rng.random() < 0.6:
-        solids.append(box((square, square, 0.5 * span), (0, 0, high - 0.25 * span)))
-    else:
-        solids.append(hexagon(square, high - 0.6 * span, high - 0.25 * span))
-        solids.append(cylinder(0.42 * square, high - 0.3 * span, high, n))
-    if rng.random() < 0.3:
-        solids.append(cylinder(0.62 * square, low + 0.3 * span, low + 0.4 * span, n))
-    return piece(solids, STEM, "trim")
+    """Thread, wrench flats and maybe a collar of a connection about z; see ``Shank``."""
+    drawn = Shank.draw(rng)
+    return put_down(style, lambda t: drawn.build(t, low, high, size))[0]
 
 
 def standing(
     top: float, style: ModelingStyle, rng: np.random.Generator, design: str = "", size: float = 0.0
 ) -> list[Part]:
     """A gauge with its connection below, on what ends at the height ``top`` [m]."""
-    size = size or float(rng.choice([0.05, 0.063, 0.08, 0.1, 0.1, 0.16]))
-    span = 0.03 + 0.12 * size
-    foot = shank(top - 0.004, top + span, style, rng, size)
-    turn = float(rng.uniform(0, 6.28))
-    return [*placed([foot], spun("z", turn)), *upright(dial(size, style, rng, design), size, top + span - 0.002, turn)]
+    given = {**({"size": size} if size else {}), **({"dial.design": design} if design else {})}
+    drawn = StandingGauge.draw(rng, given)
+    return put_down(style, lambda t: drawn.build(t, top))
 
 
 # --- heads ---
 
 
 def gland(style: ModelingStyle, rng: np.random.Generator, thread: float = 0.02) -> Solid:
-    """A cable gland or plug about z from 0 up (EN 62444), maybe with a stub of cable [m]."""
-    n, r = fine_sides(thread / 2, style, 12), thread / 2
-    nut = merge([hexagon(2.5 * r, 0.0, 0.5 * r), hexagon(2.4 * r, 0.9 * r, 1.7 * r), cylinder(r, 0.0, 2.2 * r, n)])
-    kind = rng.random()
-    if kind < 0.4:
-        return nut
-    if kind < 0.6:
-        return merge([cylinder(1.1 * r, 0.0, 0.4 * r, n), hexagon(0.9 * r, 0.3 * r, 0.8 * r)])
-    long = float(rng.uniform(2, 8)) * thread
-    path = [(0, 0, 2 * r), (0, 0, 2 * r + 0.4 * long), (0, -0.1 * long, 2 * r + 0.7 * long), (0, -0.3 * long, long)]
-    return merge([nut, rope(path, 0.45 * r, 8)])
+    """A cable gland or plug about z from 0 up, maybe with a stub of cable [m]; see ``Gland``."""
+    return Gland.draw(rng).solid(style, thread)
 
 
 def housing(style: ModelingStyle, rng: np.random.Generator, shape: str = "") -> Solid:
-    """A transmitter's electronics on z = 0: one or two chambers, a pot, a rectangular or slanted head.
-
-    Args:
-        style: that models it.
-        rng: draws what is open.
-        shape: ``single``, ``double``, ``pot``, ``rectangle``, ``slant`` or drawn.
-    """
-    shape = shape or str(rng.choice(["single", "double", "pot", "rectangle", "slant"]))
-    r = float(rng.uniform(0.034, 0.052))
-    n, neck = style.round(r), cylinder(0.45 * r, 0.0, 0.5 * r, 12)
-    if shape == "pot":  # a can about z with a screwed lid, maybe with a window
-        body = turned([(0.5 * r, 0.2 * r), (r, 0.45 * r), (r, 1.7 * r), (1.1 * r, 1.7 * r), (1.1 * r, 2.2 * r)], n)
-        ribs = around(box((0.14 * r, 0.2 * r, 0.4 * r), (0, 0, 1.95 * r)), 8, 1.1 * r)
-        out = moved(along("x", gland(style, rng), 0.9 * r, 0, r), spun("z", float(rng.uniform(0, 6))))
-        return merge([neck, body, ribs, out])
-    if shape == "rectangle":
-        wide, deep, tall = (float(rng.uniform(a, b)) for a, b in ((0.09, 0.15), (0.06, 0.1), (0.08, 0.14)))
-        block = extrude(rounded_rectangle(wide, tall, 0.12 * tall, 3), 0.0, deep)
-        lid = extrude(rounded_rectangle(0.96 * wide, 0.96 * tall, 0.1 * tall, 3), deep + 0.001, deep + 0.012)
-        view = box((0.5 * wide, 0.3 * tall, 0.002), (0, 0.15 * tall, deep + 0.0128))
-        outs = [along("-y", gland(style, rng), x, -0.5 * tall + 0.001, 0.4 * deep) for x in (-0.3 * wide, 0.3 * wide)]
-        up = at(0, 0.5 * deep, 0.4 * r + 0.5 * tall) @ UPRIGHT
-        return merge([neck, moved(merge([block, lid, view, *outs]), up)])
-    if shape == "slant":  # a pot whose window leans to the reader
-        body = turned([(0.5 * r, 0.2 * r), (0.9 * r, 0.4 * r), (0.9 * r, 1.5 * r), (0.5 * r, 1.9 * r)], n)
-        lid = turned([(1.0 * r, 0.0), (1.08 * r, 0.1 * r), (1.08 * r, 0.5 * r), (0.9 * r, 0.6 * r)], n)
-        lean = moved(lid, at(0, -0.2 * r, 1.3 * r) @ spun("x", np.pi / 4))
-        return merge([neck, body, lean, along("y", gland(style, rng), 0, 0.8 * r, 0.9 * r)])
-    # A drum about x with screwed covers at one end or both.
-    low, high = (-1.3 * r, 0.9 * r) if shape == "single" else (-1.0 * r, 1.0 * r)
-    body = along("x", turned([(0.8 * r, low), (r, low + 0.15 * r), (r, high), (0.8 * r, high + 0.05 * r)], n))
-    cover = turned([(1.12 * r, 0.0), (1.15 * r, 0.1 * r), (1.15 * r, 0.55 * r), (1.0 * r, 0.65 * r)], n)
-    covers = [along("x", cover, high - 0.1 * r)]
-    if shape == "double":
-        covers.append(along("-x", cover, low + 0.1 * r))
-    sides = ("y", "-y") if rng.random() < 0.5 else ("y",)
-    outs = [along(a, gland(style, rng), 0, 0.9 * r * (1 if a == "y" else -1), 0.1 * r) for a in sides]
-    return merge([neck, moved(merge([body, *covers, *outs]), at(0, 0, 1.35 * r))])
+    """A transmitter's electronics on z = 0; see ``Housing``."""
+    return Housing.draw(rng, {"shape": shape} if shape else {}).solid(style)
 
 
 def indicator(wide: float, tall: float, deep: float, style: ModelingStyle, rng: np.random.Generator) -> list[Part]:
     """A square case about z with its back on 0: bezel, face, a needle [m]."""
-    outline = rounded_rectangle(wide, tall, float(rng.uniform(0.0, 0.15)) * tall, 3)
-    back = extrude(0.94 * outline, 0.0, 0.7 * deep)
-    frame = extrude(outline, 0.68 * deep, deep, (0.86 * outline,))
-    face = extrude(0.855 * outline, 0.7 * deep, 0.7 * deep + 0.0015)
-    r = 0.4 * min(wide, tall)
-    needle = needle_of(r, 0.7 * deep + 0.0015, rng)
-    parts = [piece([back, frame], CASE, "gauge"), piece(face, "gauge face", "dial", CASE)]
-    parts.append(pointer(needle))
-    if rng.random() < 0.5:
-        parts.append(piece(extrude(0.855 * outline, 0.92 * deep, 0.96 * deep), "gauge glass", "dial", CASE))
-    return fronted(parts)
+    drawn = Indicator.draw(rng)
+    return put_down(style, lambda t: drawn.build(t, wide, tall, deep))
 
 
 def t_handle(reach: float, wide: float, radius: float = 0.004) -> Solid:

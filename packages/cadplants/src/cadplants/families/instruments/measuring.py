@@ -10,7 +10,7 @@ from cadplants.families.instruments.level import LEVEL_BUILDS
 from cadplants.families.instruments.panel import PANEL_BUILDS
 from cadplants.families.instruments.pressure import PRESSURE_BUILDS
 from cadplants.families.instruments.sight import SIGHT_BUILDS
-from cadplants.families.instruments.siphon import SIPHON_BUILDS
+from cadplants.families.instruments.siphons import SIPHONS
 from cadplants.family import Family
 
 __all__ = ["MEASURING"]
@@ -18,7 +18,7 @@ __all__ = ["MEASURING"]
 MEASURING: tuple[Family, ...] = (
     *GAUGE_BUILDS,
     *PANEL_BUILDS,
-    *SIPHON_BUILDS,
+    *SIPHONS,
     *HEAT_BUILDS,
     *LEVEL_BUILDS,
     *PRESSURE_BUILDS,

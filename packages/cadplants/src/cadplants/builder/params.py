@@ -1,0 +1,396 @@
+"""Parameters of devices: drawn at random or given, checked, and written down.
+
+A family is a class of ``Params``. Each of its fields says how it is drawn, what it means and in which unit:
+
+    class Siphon(Params):
+        loops: int = whole(1, 3, "turns of the coil")
+        bend: float = between(0.04, 0.06, "radius of the coil", "m")
+        valve: bool = chance(0.5, "a needle valve sits on it")
+        knob: float = between(0.02, 0.04, "of the needle valve's knob", "m", when=lambda p: p.valve)
+
+``Siphon.draw(source)`` draws all fields, ``Siphon.draw(source, loops=2)`` those that are not given. What is built from
+them is a function of them alone.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import zlib
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from types import SimpleNamespace
+from typing import Any, ClassVar, Protocol, TypeVar, dataclass_transform
+
+import numpy as np
+
+__all__ = [
+    "Apart",
+    "Field",
+    "OneStream",
+    "Params",
+    "Source",
+    "among",
+    "between",
+    "chance",
+    "given",
+    "nested",
+    "several",
+    "weighted",
+    "whole",
+]
+
+Rng = np.random.Generator
+When = Callable[[Any], bool]
+T = TypeVar("T")
+P = TypeVar("P", bound="Params")
+
+
+class Source(Protocol):
+    """Where random numbers come from, field by field."""
+
+    @property
+    def rng(self) -> Rng:
+        """The generator of this field."""
+        ...
+
+    def of(self, name: str) -> Source:
+        """The source of a field within this one."""
+        ...
+
+
+@dataclass(frozen=True)
+class OneStream:
+    """One generator for all fields, in their order."""
+
+    rng: Rng
+
+    def of(self, name: str) -> Source:
+        """Itself, whatever the name."""
+        return self
+
+
+class Apart:
+    """A generator for each field by its name, so that a field more changes no other.
+
+    Args:
+        path: a seed, then whatever tells one device from another.
+    """
+
+    def __init__(self, *path: int) -> None:
+        self._path = path
+
+    @property
+    def rng(self) -> Rng:
+        """A new generator, which always begins anew."""
+        return np.random.default_rng(self._path)
+
+    def of(self, name: str) -> Source:
+        """The source of a field, by the field's name."""
+        return Apart(*self._path, zlib.crc32(name.encode()))
+
+
+@dataclass(frozen=True)
+class Field:
+    """How a parameter is drawn and checked.
+
+    Args:
+        about: what it means: a noun phrase.
+        unit: ``m``, ``rad``...; "" of counts, choices and ratios.
+        limits: what it can be, for people.
+        sample: draws it, given its source and the fields before it.
+        accept: what a given value (maybe text) stands for; raises ``ValueError`` where it can't be.
+        when: whether the device has it at all, by the fields before it; None: always.
+        otherwise: its value where it has not.
+        piece: the class of a piece with parameters of its own.
+    """
+
+    about: str
+    unit: str
+    limits: str
+    sample: Callable[[Source, Any], Any]
+    accept: Callable[[Any, Any], Any]
+    when: When | None = None
+    otherwise: Any = None
+    piece: type[Params] | None = None
+
+
+def _field(spec: Field) -> Any:
+    return dataclasses.field(metadata={"spec": spec})
+
+
+def between(
+    low: float | Callable[[Any], float],
+    high: float | Callable[[Any], float],
+    about: str,
+    unit: str = "",
+    *,
+    when: When | None = None,
+    otherwise: float = 0.0,
+) -> float:
+    """A number, all between two as likely; these may follow from the fields before."""
+
+    def bounds(before: Any) -> tuple[float, float]:
+        return (low(before) if callable(low) else low), (high(before) if callable(high) else high)
+
+    def accept(value: Any, before: Any) -> float:
+        number, (least, most) = float(value), bounds(before)
+        if not least <= number <= most:
+            raise ValueError(f"give {least:g} to {most:g}")
+        return number
+
+    limits = "by the fields before" if callable(low) or callable(high) else f"{low:g} to {high:g}"
+    draw = lambda source, before: float(source.rng.uniform(*bounds(before)))  # noqa: E731
+    return _field(Field(about, unit, limits, draw, accept, when, otherwise))  # type: ignore[no-any-return]
+
+
+def whole(low: int, high: int, about: str, *, when: When | None = None, otherwise: int = 0) -> int:
+    """A whole number, from ``low`` to ``high`` with both."""
+
+    def accept(value: Any, _: Any) -> int:
+        number = int(value)
+        if not low <= number <= high:
+            raise ValueError(f"give {low} to {high}")
+        return number
+
+    limits = f"{low} to {high}"
+    return _field(Field(about, "", limits, lambda s, _: int(s.rng.integers(low, high + 1)), accept, when, otherwise))  # type: ignore[no-any-return]
+
+
+def chance(share: float, about: str, *, when: When | None = None, otherwise: bool = False) -> bool:
+    """Whether something is there, or is so, that is so this often."""
+
+    def accept(value: Any, _: Any) -> bool:
+        text = str(value).lower()
+        if text not in ("true", "false", "yes", "no", "1", "0"):
+            raise ValueError("give yes or no")
+        return text in ("true", "yes", "1")
+
+    limits = f"yes or no, {share:.0%} yes"
+    return _field(Field(about, "", limits, lambda s, _: bool(s.rng.random() < share), accept, when, otherwise))  # type: ignore[no-any-return]
+
+
+def among(
+    items: Sequence[T] | Callable[[Any], Sequence[T]],
+    about: str,
+    unit: str = "",
+    *,
+    when: When | None = None,
+    otherwise: T | None = None,
+) -> T:
+    """One of some things, all as likely; what stands twice is twice as likely.
+
+    Args:
+        items: the things, or what gives them by the fields before.
+        about: what it means.
+        unit: of numbers.
+        when: whether the device has it.
+        otherwise: its value where it has not.
+    """
+    choices: Callable[[Any], Sequence[T]] = items if callable(items) else lambda _: items
+
+    def sample(source: Source, before: Any) -> T:
+        some = choices(before)
+        return some[int(source.rng.integers(len(some)))]
+
+    def accept(value: Any, before: Any) -> T:
+        some = choices(before)
+        for item in some:
+            if value == item or str(value) == str(item):
+                return item
+        if all(isinstance(item, float) for item in some):
+            # A size that no draw takes may be asked for, as far as it lies among those that draws take.
+            number, least, most = float(value), min(some), max(some)  # type: ignore[type-var]
+            if least <= number <= most:  # type: ignore[operator]
+                return number  # type: ignore[return-value]
+            raise ValueError(f"give {least:g} to {most:g}")
+        raise ValueError(f"give {', '.join(str(item) for item in dict.fromkeys(some))}")
+
+    limits = "by the fields before" if callable(items) else ", ".join(str(item) for item in dict.fromkeys(items))
+    return _field(Field(about, unit, limits, sample, accept, when, otherwise))  # type: ignore[no-any-return]
+
+
+def weighted(about: str, *, when: When | None = None, otherwise: str = "", **shares: float) -> str:
+    """One of some words, each as likely as its share says; the last takes what is left."""
+    names, bounds = tuple(shares), np.cumsum(list(shares.values()))[:-1]
+
+    def sample(source: Source, _: Any) -> str:
+        return names[int(np.searchsorted(bounds, source.rng.random(), side="right"))].replace("_", " ")
+
+    def accept(value: Any, _: Any) -> str:
+        if str(value).replace(" ", "_") not in names:
+            raise ValueError(f"give {', '.join(names).replace('_', ' ')}")
+        return str(value)
+
+    limits = ", ".join(f"{name.replace('_', ' ')} {share:.0%}" for name, share in shares.items())
+    return _field(Field(about, "", limits, sample, accept, when, otherwise))  # type: ignore[no-any-return]
+
+
+def given(default: T, about: str, unit: str = "") -> T:
+    """What is not drawn but said by whoever asks for the device: a nominal size, a height."""
+    kind = type(default)
+    return _field(Field(about, unit, f"{default} unless given", lambda *_: default, lambda v, _: kind(v)))  # type: ignore[call-arg, no-any-return]
+
+
+def nested(
+    kind: type[P] | Callable[[Source, Any], P], about: str, *, when: When | None = None, otherwise: P | None = None
+) -> P:
+    """A piece with parameters of its own: of one class, or of whichever class a function draws."""
+    make: Any = kind
+    piece: type[Params] | None = kind if isinstance(kind, type) else None
+
+    def sample(source: Source, before: Any) -> Any:
+        return piece.draw(source) if piece is not None else make(source, before)
+
+    def accept(value: Any, before: Any) -> P:
+        if isinstance(value, Params):
+            return value  # type: ignore[return-value]
+        raise ValueError("give its own fields, as name.field=value")
+
+    return _field(Field(about, "", "see its own", sample, accept, when, otherwise, piece))  # type: ignore[no-any-return]
+
+
+def several(
+    draw: Callable[[Rng, Any], T], count: Callable[[Any], int], about: str, unit: str = "", *, when: When | None = None
+) -> tuple[T, ...]:
+    """As many values as the fields before say, one after the other."""
+
+    def sample(source: Source, before: Any) -> tuple[T, ...]:
+        rng = source.rng
+        return tuple(draw(rng, before) for _ in range(count(before)))
+
+    def accept(value: Any, before: Any) -> tuple[T, ...]:
+        if not isinstance(value, (list, tuple)) or len(value) != count(before):
+            raise ValueError(f"give {count(before)} values")
+        return tuple(value)
+
+    return _field(Field(about, unit, "one each", sample, accept, when, ()))  # type: ignore[no-any-return]
+
+
+@dataclass_transform(
+    kw_only_default=True,
+    frozen_default=True,
+    field_specifiers=(between, whole, chance, among, weighted, given, nested, several),
+)
+class Params:
+    """The parameters of a device or a piece of one; every subclass is a frozen dataclass of its fields."""
+
+    kind: ClassVar[str] = ""
+    """What the piece is called where it is one of several: ``lever``."""
+
+    def __init_subclass__(cls, **more: Any) -> None:
+        super().__init_subclass__(**more)
+        dataclass(frozen=True, kw_only=True)(cls)
+
+    @classmethod
+    def fields(cls) -> Mapping[str, Field]:
+        """How each parameter is drawn, by its name."""
+        return {f.name: f.metadata["spec"] for f in dataclasses.fields(cls)}  # type: ignore[arg-type]
+
+    @classmethod
+    def draw(cls: type[P], source: Source | Rng, fixed: Mapping[str, Any] | None = None, **given: Any) -> P:
+        """Draws what is not given.
+
+        Args:
+            source: of random numbers; of a plain generator all fields are drawn one after the other.
+            fixed: values by name that the one who builds with the piece sets, whatever a draw could be.
+            given: values by name that a user wants, of pieces as ``"drive.length"``; text is understood.
+
+        Raises:
+            ValueError: a name is not known, or a given value can't be.
+        """
+        source = OneStream(source) if isinstance(source, np.random.Generator) else source
+        specs, fixed = cls.fields(), fixed or {}
+        unknown = [key for key in (*given, *fixed) if key.split(".")[0] not in specs]
+        if unknown:
+            raise ValueError(f"{unknown[0]}: no parameter; there are {', '.join(specs) or 'none'}")
+        values: dict[str, Any] = {}
+        for name, spec in specs.items():
+            before = SimpleNamespace(**values)
+            inner = _below(name, given), _below(name, fixed)
+            if name in fixed:
+                values[name] = fixed[name]
+            elif name in given:
+                values[name] = _accepted(name, spec, given[name], before)
+            elif spec.when is not None and not spec.when(before):
+                values[name] = spec.otherwise
+            elif any(inner) and spec.piece is not None:
+                values[name] = _draw_piece(name, spec.piece, source.of(name), *inner)
+                continue
+            else:
+                values[name] = spec.sample(source.of(name), before)
+            if any(inner):
+                values[name] = _with_inner(name, values[name], source.of(name), *inner)
+        return cls(**values)
+
+    def rows(self, within: str = "") -> list[tuple[str, str, str, str]]:
+        """What people read of all parameters: name, value, what it can be, what it is; pieces' own below them.
+
+        Args:
+            within: name of the piece that these are of, for their names.
+        """
+        found = []
+        for name, spec in self.fields().items():
+            value, unit = getattr(self, name), f" [{spec.unit}]" if spec.unit else ""
+            if isinstance(value, Params):
+                # Of a piece that can be of several kinds, which one it is.
+                found += [(within + name, value.kind, spec.limits, spec.about)] if value.kind else []
+                found += value.rows(f"{within}{name}.")
+            elif value is not None:
+                found.append((within + name, _told(value), spec.limits, spec.about + unit))
+        return found
+
+    def to_json(self) -> dict[str, Any]:
+        """All parameters as plain JSON values, pieces as objects of their own."""
+        said = {"kind": self.kind} if self.kind else {}
+        return said | {name: _plain(getattr(self, name)) for name in self.fields()}
+
+
+def _below(name: str, given: Mapping[str, Any]) -> dict[str, Any]:
+    """What is given of a piece, by the piece's own names."""
+    return {key.split(".", 1)[1]: value for key, value in given.items() if key.startswith(f"{name}.")}
+
+
+def _accepted(name: str, spec: Field, value: Any, before: Any) -> Any:
+    try:
+        return spec.accept(value, before)
+    except (TypeError, ValueError) as error:
+        raise ValueError(f"{name}={value}: {error}") from None
+
+
+def _with_inner(
+    name: str, piece: Any, source: Source, given: Mapping[str, Any], fixed: Mapping[str, Any] | None = None
+) -> Any:
+    """A piece that was drawn already, with some of its own parameters set."""
+    if not isinstance(piece, Params):
+        first = next(iter({**given, **(fixed or {})}))
+        raise ValueError(f"{name}.{first}: the device has no {name} with parameters of its own")
+    told = {key.split(".")[0] for key in (*given, *(fixed or {}))}
+    kept = {key: getattr(piece, key) for key in piece.fields() if key not in told}
+    return _draw_piece(name, type(piece), source, given, {**kept, **(fixed or {})})
+
+
+def _draw_piece(
+    name: str, kind: type[Params], source: Source, given: Mapping[str, Any], fixed: Mapping[str, Any]
+) -> Params:
+    try:
+        return kind.draw(source, fixed, **given)
+    except ValueError as error:
+        raise ValueError(f"{name}.{error}") from None
+
+
+def _told(value: Any) -> str:
+    if isinstance(value, tuple):
+        return ", ".join(map(_told, value))
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    return f"{value:.4g}" if isinstance(value, float) else str(value)
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, Params):
+        return value.to_json()
+    if isinstance(value, (tuple, list)):
+        return [_plain(one) for one in value]
+    if isinstance(value, (bool, str)) or value is None:
+        return value
+    return int(value) if isinstance(value, (int, np.integer)) else round(float(value), 9)

@@ -1,0 +1,123 @@
+import json
+
+import numpy as np
+import pytest
+
+from cadplants.builder.device import Device, Maker, families_of
+from cadplants.builder.params import (
+    Apart,
+    Params,
+    among,
+    between,
+    chance,
+    nested,
+    several,
+    weighted,
+    whole,
+)
+from cadplants.modeling_style import STYLES
+from cadplants.primitives import box
+
+
+class Knob(Params):
+    kind = "knob"
+    radius: float = between(0.02, 0.04, "of the knob", "m")
+    lobes: int = whole(3, 6, "lobes")
+
+
+class Coil(Device, name="siphon/coil", place="tap", group="Pipe assembly", label="pipe", sizes=(15, 20)):
+    loops: int = whole(1, 3, "turns of the coil")
+    bends: tuple[float, ...] = several(lambda rng, _: float(rng.uniform(0.1, 0.2)), lambda p: p.loops, "of each", "m")
+    end: str = among(("plain", "threaded", "threaded"), "its end")
+    form: str = weighted("how it is bent", round=0.7, pig_tail=0.3)
+    valve: bool = chance(0.5, "a valve sits on it")
+    knob: Knob = nested(Knob, "of the valve", when=lambda p: p.valve)
+
+    def build(self, t):
+        t.add("pipe", box((0.1, 0.1, 0.1 * self.loops)))
+        return t.model()
+
+
+def test_the_same_source_draws_the_same():
+    assert Coil.draw(Apart(3)) == Coil.draw(Apart(3)) == Coil.draw(Apart(3), **{})
+    assert Coil.draw(np.random.default_rng(3)) == Coil.draw(np.random.default_rng(3))
+
+
+def test_what_is_drawn_lies_within_what_it_can_be():
+    drawn = [Coil.draw(Apart(seed)) for seed in range(200)]
+    assert {one.loops for one in drawn} == {1, 2, 3}
+    assert {one.end for one in drawn} == {"plain", "threaded"}
+    assert {one.form for one in drawn} == {"round", "pig tail"}
+    assert all(0.1 <= bend <= 0.2 for one in drawn for bend in one.bends)
+    assert all((one.knob is not None) == one.valve for one in drawn)
+    assert all(0.02 <= one.knob.radius <= 0.04 for one in drawn if one.valve)
+
+
+def test_a_parameter_that_is_given_changes_no_other_but_those_that_follow_from_it():
+    usual = Coil.draw(Apart(5))
+    for end in ("plain", "threaded"):
+        other = Coil.draw(Apart(5), end=end)
+        assert other.end == end
+        assert (other.loops, other.bends, other.form, other.valve) == (
+            usual.loops,
+            usual.bends,
+            usual.form,
+            usual.valve,
+        )
+
+
+def test_a_new_parameter_changes_no_other():
+    class Longer(Params):
+        before: float = between(0, 1, "new")
+        radius: float = between(0.02, 0.04, "of the knob", "m")
+        lobes: int = whole(3, 6, "lobes")
+
+    longer, knob = Longer.draw(Apart(9)), Knob.draw(Apart(9))
+    assert (longer.radius, longer.lobes) == (knob.radius, knob.lobes)
+
+
+def test_text_is_understood_and_pieces_have_names_of_their_own():
+    one = Coil.draw(Apart(1), loops="2", valve="yes", **{"knob.radius": "0.03"})
+    assert (one.loops, one.valve, one.knob.radius) == (2, True, 0.03)
+    assert one.knob.lobes == Coil.draw(Apart(1), valve=True).knob.lobes
+
+
+@pytest.mark.parametrize(
+    ("told", "message"),
+    [
+        ({"loops": 7}, "loops=7: give 1 to 3"),
+        ({"end": "welded"}, "end=welded: give plain, threaded"),
+        ({"valve": "perhaps"}, "valve=perhaps: give yes or no"),
+        ({"form": "square"}, "form=square: give round, pig tail"),
+        ({"lops": 1}, "lops: no parameter; there are dn, loops"),
+        ({"valve": True, "knob.radius": 1}, "knob.radius=1: give 0.02 to 0.04"),
+        ({"valve": False, "knob.radius": 0.03}, "knob.radius: the device has no knob"),
+    ],
+)
+def test_what_can_not_be_is_refused_by_name(told, message):
+    with pytest.raises(ValueError, match=message):
+        Coil.draw(Apart(1), **told)
+
+
+def test_parameters_are_plain_json_that_makes_the_same_device_again():
+    one = Coil.draw(Apart(4), valve=True)
+    said = json.loads(json.dumps(one.to_json()))
+    again = {f"knob.{k}": v for k, v in said.pop("knob").items() if k != "kind"}
+    made = Coil.draw(Apart(99), **said, **again)
+    assert made.to_json() == one.to_json()
+
+
+def test_people_read_every_parameter_with_its_unit_and_what_it_can_be():
+    rows = {name: rest for name, *rest in Coil.draw(Apart(4), valve=True).rows()}
+    assert rows["knob.radius"][1:] == ["0.02 to 0.04", "of the knob [m]"]
+    assert set(rows) == {"dn", *Coil.fields(), "knob.radius", "knob.lobes"}
+    assert rows["knob"][0] == "knob"
+
+
+def test_a_class_is_a_family_whose_models_say_what_they_were_built_from():
+    (family,) = families_of(Coil)
+    assert (family.name, family.place, family.whole, family.sizes) == ("siphon/coil", "tap", "pipe", (15, 20))
+    assert isinstance(family.build, Maker)
+    model = family.build(20, STYLES["bim"], np.random.default_rng(2))
+    assert model.params == Coil.draw(np.random.default_rng(2), dn=20).to_json()
+    assert model.params["dn"] == 20

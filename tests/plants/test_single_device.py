@@ -1,0 +1,74 @@
+import pytest
+
+from cadplants.builder.device import Maker
+from cadplants.single_device import draw_parameters, family_called, make_device
+from cadplants.taste import ALL_FAMILIES
+from cadplants.truth_writer import truth_of
+from command_line import refused, run
+
+WITH_PARAMETERS = [name for name, family in ALL_FAMILIES.items() if isinstance(family.build, Maker)]
+
+
+@pytest.mark.parametrize("name", ["gate valve/rising stem", *WITH_PARAMETERS[::29]])
+def test_a_device_by_itself_is_a_plant_with_truth(name):
+    plant = make_device(name, 3)
+    truth = truth_of(plant)
+    assert {mesh["family"] for mesh in truth["meshes"]} == {name.split("/")[0]}
+    assert plant.contacts or plant.n_meshes == 1
+    if name in WITH_PARAMETERS:
+        (device,) = truth["devices"]
+        assert device["meshes"] == list(plant.paths())
+        assert device["params"] == draw_parameters(name, 3).to_json()
+    else:
+        assert "devices" not in truth
+
+
+@pytest.mark.parametrize(
+    ("name", "given", "message"),
+    [
+        ("gate valve/os&y", {}, "no family of devices; there are"),
+        ("gate valve", {}, "gate valve/"),
+        ("gate valve/rising stem", {"dn": 81}, "dn=81: gate valve/rising stem is made in"),
+        ("gate valve/rising stem", {"dn": "x"}, "dn=x: gate valve/rising stem is made in"),
+    ],
+)
+def test_unknown_families_and_sizes_are_refused(name, given, message):
+    with pytest.raises(ValueError, match=message):
+        make_device(name, given=given)
+
+
+def test_a_style_by_its_name():
+    with pytest.raises(ValueError, match="style 'baroque': give one of"):
+        make_device("gate valve/rising stem", style="baroque")
+
+
+def test_sizes_are_those_of_the_family():
+    family = family_called("ball valve/two-piece")
+    assert make_device(family.name, given={"dn": str(family.sizes[0])}).n_meshes > 1
+
+
+def test_commands_list_describe_and_write_devices(capsys, tmp_path):
+    code, out, _ = run(capsys, "environment", "devices", "gate valve")
+    assert code == 0
+    assert "gate valve/rising stem  inline  Valve assembly" in out
+    code, out, _ = run(capsys, "environment", "device", "gate valve/rising stem")
+    assert code == 0
+    assert out.startswith("gate valve/rising stem: Valve assembly, inline, DN ")
+    scene = tmp_path / "valve.usdc"
+    code, _, _ = run(capsys, "environment", "device", "gate valve/rising stem", "--set", "dn=80", "-o", scene)
+    assert code == 0
+    assert scene.exists()
+    assert (tmp_path / "valve.truth.json").exists()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (("device", "gate valve/os&y"), "'gate valve/os&y' is no family"),
+        (("device", "gate valve/rising stem", "--set", "dn"), "--set dn: give a parameter and its value as NAME=VALUE"),
+        (("device", "gate valve/rising stem", "--set", "dn=81"), "dn=81"),
+        (("devices", "zeppelin"), "'zeppelin': no family has this in its name"),
+    ],
+)
+def test_commands_refuse_in_one_line(capsys, arguments, said):
+    assert said in refused(capsys, "environment", *arguments)
