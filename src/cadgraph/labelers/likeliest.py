@@ -90,4 +90,5 @@ def likeliest_of_all(
             if likely[0] < limit <= together:
                 yield Likeliest(group_names[group], None, min(1.0, together), guesses)
             else:
-                yield Likeliest(*classes[best[0]], min(1.0, likely[0]), guesses)
+                own_group, name = classes[best[0]]
+                yield Likeliest(own_group, name, min(1.0, likely[0]), guesses)
