@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from cadplants.families.vessels.boilerware import BOILERWARE
+from cadplants.families.vessels.boilers import BOILERS
 from cadplants.families.vessels.boxware import BOXWARE
 from cadplants.families.vessels.dry_filters import DRY_FILTERS
 from cadplants.families.vessels.filterware import FILTERWARE
@@ -24,7 +24,7 @@ PLANTWARE: tuple[Family, ...] = (
     *SMALLWARE,
     *HEATWARE,
     *WARMWARE,
-    *BOILERWARE,
+    *BOILERS,
     *FILTERWARE,
     *DRY_FILTERS,
     *SEPARATEWARE,
