@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from cadplants.families.vessels.airware import AIRWARE
-from cadplants.families.vessels.boilerware import BOILERWARE
+from cadplants.families.vessels.boilers import BOILERS
 from cadplants.families.vessels.boxware import BOXWARE
+from cadplants.families.vessels.dry_filters import DRY_FILTERS
 from cadplants.families.vessels.filterware import FILTERWARE
 from cadplants.families.vessels.heatware import HEATWARE
 from cadplants.families.vessels.pressware import PRESSWARE
@@ -24,9 +24,9 @@ PLANTWARE: tuple[Family, ...] = (
     *SMALLWARE,
     *HEATWARE,
     *WARMWARE,
-    *BOILERWARE,
+    *BOILERS,
     *FILTERWARE,
-    *AIRWARE,
+    *DRY_FILTERS,
     *SEPARATEWARE,
     *BOXWARE,
 )
