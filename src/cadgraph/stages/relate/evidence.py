@@ -56,6 +56,11 @@ class Curve:
         """The contribution at a value, or at each of several; 0 where it is not known (NaN)."""
         return np.asarray(np.nan_to_num(np.interp(value, self.at, self.gives), nan=0.0), np.float64)
 
+    def at_one(self, value: float) -> float:
+        """The same at one value, without an array."""
+        given = float(np.interp(value, self.at, self.gives))
+        return 0.0 if math.isnan(given) else given
+
 
 # Gaps of real plants: 1.5-4.5 mm between flanges without gasket, 3-8 mm behind the face of a slip-on flange, 0.1-0.6 mm
 # at screwed joints; 12 mm and more are the places of wafer valves and missing pieces.
@@ -124,8 +129,7 @@ def add_up_one(kind: str, measured: Mapping[str, float]) -> float:
 @lru_cache(maxsize=_MOST_KEPT)
 def _given(curve: Curve, value: float) -> float:
     """What a curve gives at one value; a change of labels leaves most joints as they were."""
-    at_value = float(np.interp(value, curve.at, curve.gives))
-    return 0.0 if math.isnan(at_value) else at_value
+    return curve.at_one(value)
 
 
 @lru_cache(maxsize=_MOST_KEPT)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 
@@ -15,6 +14,7 @@ from cadgraph.stages.relate.evidence import Curve, Term, score_of, tell_terms
 from cadgraph.stages.relate.joint import Facing
 from cadgraph.stages.relate.line import is_disc
 from cadgraph.stages.relate.piping import Group, Piping, Recovered
+from cadgraph.stages.relate.span import length_of
 
 __all__ = ["INLINE", "THICKER", "WAIST", "pipe_radius", "recover_inline"]
 
@@ -197,12 +197,8 @@ def _piece(piping: Piping, parts: tuple[int, ...], rows: tuple[int, int], waist:
     between = ends.point[b] - ends.point[a]
     radius = float(max(ends.radius[a], ends.radius[b]))
     aside = between - (between @ ends.direction[a]) * ends.direction[a]
-    near = _length(aside) <= _ON_AXIS * radius and _length(between) <= _LONGEST * radius
+    near = length_of(aside) <= _ON_AXIS * radius and length_of(between) <= _LONGEST * radius
     return _Piece(parts, rows, waist) if near else None
-
-
-def _length(step: Floats) -> float:
-    return math.sqrt(step.dot(step))
 
 
 def _narrowest(line: Centreline, piping: Piping, rows: Sequence[int]) -> float:

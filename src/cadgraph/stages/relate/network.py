@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from types import MappingProxyType
@@ -15,7 +14,7 @@ from cadgraph.model.parts import Opening, UnitParts
 from cadgraph.model.scene import Floats
 from cadgraph.stages.relate.attach import Attachments, Side
 from cadgraph.stages.relate.line import is_disc
-from cadgraph.stages.relate.span import Net, Span
+from cadgraph.stages.relate.span import Net, Span, length_of
 
 __all__ = ["FLANGED_SCORE", "SIDE_SCORE", "TWIN_SCORE", "Drawing", "draw_network", "gauge_sides"]
 
@@ -185,14 +184,14 @@ def _draw_line(draft: _Draft, part: int, sure: float) -> None:
     for row in draft.found.ends.of_part.get(part, ()):
         end = line.ends[int(draft.found.ends.index[row])]
         points = line.branches[end.branch].points
-        at_start = _apart(points[0], end.point) <= _apart(points[-1], end.point)
+        at_start = length_of(points[0] - end.point) <= length_of(points[-1] - end.point)
         tips[end.branch, at_start] = draft.node_of_end[row]
     for junction in line.junctions:
         node = draft.new()
         for number in set(junction.branches):
             points = line.branches[number].points
             for at_start, point in ((True, points[0]), (False, points[-1])):
-                if _apart(point, junction.point) < 1e-6:
+                if length_of(point - junction.point) < 1e-6:
                     tips[number, at_start] = node
     short = is_disc(line)
     for number, branch in enumerate(line.branches):
@@ -201,11 +200,6 @@ def _draw_line(draft: _Draft, part: int, sure: float) -> None:
         stop = start if branch.closed else tips.get((number, False))
         stop = draft.new() if stop is None else stop
         _draw_branch(draft, part, number, branch, (start, stop), short, sure)
-
-
-def _apart(a: Floats, b: Floats) -> float:
-    step = a - b
-    return math.sqrt(step.dot(step))
 
 
 def _draw_branch(

@@ -7,16 +7,13 @@ from dataclasses import dataclass, field, replace
 from functools import cache
 from typing import Any
 
-import numpy as np
-
 from cadgraph.model.scene import Floats
 from cadgraph.model.vocabulary import default_vocabulary
 from cadplants.family import Model, Part, Port, placed
-from cadplants.flange import face_shell, plate_thickness
-from cadplants.mesh_ops import Solid, merge, revolve, weld
+from cadplants.mesh_ops import Solid, merge
 from cadplants.modeling_style import ModelingStyle
 from cadplants.plant import Turning
-from cadplants.primitives import AXES, around, cylinder, hexagon
+from cadplants.primitives import AXES
 from cadplants.standards import FLANGES, PIPES, Flange, Pipe
 from cadplants.transforms import IDENTITY, at, spun
 
@@ -179,23 +176,6 @@ class Table:
     def extend(self, parts: Sequence[Part]) -> None:
         """Puts finished parts down, in the frame."""
         self.parts.extend(parts if self.frame is IDENTITY else placed(parts, self.frame))
-
-    def bolts(self, count: int, radius: float, thread: float, low: float, high: float) -> None:
-        """Hexagon bolts about z through what lies between two heights, as one mesh [m]."""
-        head = 0.65 * thread
-        one = [
-            cylinder(thread / 2, low, high, 8),
-            hexagon(1.6 * thread, high, high + head),
-            hexagon(1.6 * thread, low - head, low),
-        ]
-        self.add("bolt", around(merge(one), count, radius, np.pi / count))
-
-    def disc_flange(self, reach: float, dn: int = 0) -> Solid:
-        """A flange about z with its face at 0 looking down, on a neck up to ``reach`` [m]."""
-        size, thick = FLANGES[dn or self.dn], plate_thickness(dn or self.dn)
-        sides, neck = self.n(size.outer / 2), 0.485 * size.hub
-        head = face_shell(dn or self.dn, sides, neck, 0.0, self.style.holes)
-        return weld([head, revolve([(neck, thick), (neck, reach), (0.0, reach)], sides)])
 
     def model(
         self, length: float = 0.0, joint: str = "flanged", kind: str = "", ports: Sequence[Port] = (), **more: Any
