@@ -2,15 +2,13 @@ import numpy as np
 import pytest
 
 import shapes
-from cadgraph.geometry.mesh.properties import measure
-from cadgraph.geometry.visibility import outside as visibility
 from cadgraph.geometry.visibility.outside import find_visible, visible_share
 from cadgraph.model.scene import Scene
 
 
 def seen(*meshes, **options):
     scene = Scene.from_meshes(meshes)
-    return find_visible(scene, measure(scene), **options).tolist()
+    return find_visible(scene, **options).tolist()
 
 
 def test_lone_mesh_is_visible():
@@ -56,7 +54,7 @@ def test_flush_contact_hides_only_what_it_covers():
 
 def test_share_grows_with_the_exposed_area():
     scene = Scene.from_meshes([shapes.box((2, 2, 2)), shapes.cylinder(0.2, 4.0), shapes.cylinder(0.1, 1.0)])
-    share = visible_share(scene, measure(scene), n_points=256)
+    share = visible_share(scene, n_points=256)
     assert share[0] > 0.95
     assert share[1] == pytest.approx(0.5, abs=0.05)
     assert share[2] == 0
@@ -72,19 +70,19 @@ def test_meshes_without_area_are_not_visible():
 
 def test_the_same_every_time():
     scene = Scene.from_meshes([shapes.box((2, 2, 2)), shapes.cylinder(0.2, 4.0)])
-    first, second = (visible_share(scene, measure(scene)) for _ in range(2))
+    first, second = (visible_share(scene) for _ in range(2))
     assert first.tobytes() == second.tobytes()
 
 
 @pytest.mark.parametrize("first_only", [True, False])
-def test_pieces_of_any_size_give_the_same(monkeypatch, first_only):
+def test_any_number_of_threads_and_any_pieces_give_the_same(first_only):
     meshes = [shapes.box(center=(0.9 * i, 0, 0)) for i in range(7)] + [shapes.box((0.1,) * 3), shapes.box((20, 3, 3))]
     empty = (np.zeros((0, 3)), np.zeros((0, 3)))
-    scene = Scene.from_meshes([empty, *meshes, empty])
-    whole = visible_share(scene, measure(scene), first_only=first_only)
-    for batch in (1, 64, 200):
-        monkeypatch.setattr(visibility, "_BATCH", batch)
-        np.testing.assert_array_equal(visible_share(scene, measure(scene), first_only=first_only), whole)
+    scene = Scene.from_meshes([empty, *meshes, empty, empty])
+    whole = visible_share(scene, first_only=first_only, workers=1)
+    np.testing.assert_array_equal(visible_share(scene, first_only=first_only, workers=3), whole)
+    pieces = [visible_share(scene, first_only=first_only, rows=(i, i + 2))[i : i + 2] for i in range(0, 12, 2)]
+    np.testing.assert_array_equal(np.concatenate(pieces), whole)
 
 
 def test_no_rays_are_an_error():
@@ -95,5 +93,5 @@ def test_no_rays_are_an_error():
 def test_input_is_not_modified():
     scene = Scene.from_meshes([shapes.box(), shapes.sphere()])
     vertices = scene.vertices.copy()
-    find_visible(scene, measure(scene))
+    find_visible(scene)
     np.testing.assert_array_equal(scene.vertices, vertices)

@@ -46,7 +46,7 @@ def main() -> None:
         ("all, 1 thread", lambda: measure(scene, workers=1), theirs[True]),
         ("all, every thread", lambda: measure(scene), theirs[True]),
         ("duplicates", lambda: find_duplicates(scene, properties), None),
-        ("visible from outside", lambda: find_visible(scene, properties), None),
+        ("visible from outside", lambda: find_visible(scene), None),
     ):
         wall, spent = timed(act)
         ratio = f"{other / spent:,.0f}" if other else ""

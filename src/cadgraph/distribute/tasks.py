@@ -63,8 +63,8 @@ def look_at_meshes(scene_folder: str, folder: str, number: int, first: int, last
         FormatError: an input is damaged.
         OutputError: the result can't be written.
     """
-    scene, properties = _measured(scene_folder)
-    seen = find_visible(scene, properties, rows=(first, last))[first:last]
+    scene, _ = _measured(scene_folder)
+    seen = find_visible(scene, rows=(first, last))[first:last]
     write_result(result_of(Path(folder), number), {"visible": seen})
 
 

@@ -54,4 +54,4 @@ def inspect_meshes(
 
 
 def _visible(scene: Scene, properties: Properties, progress: Progress, crew: Crew | None) -> Bools:
-    return find_visible(scene, properties) if crew is None else crew.visible(scene, properties, progress)
+    return find_visible(scene) if crew is None else crew.visible(scene, properties, progress)

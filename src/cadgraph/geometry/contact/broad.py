@@ -7,6 +7,8 @@ pair is found once: a scene of a million small boxes and a few as large as itsel
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 import numpy.typing as npt
 
@@ -15,7 +17,7 @@ from cadgraph.geometry.kernels.parallel import compiled
 from cadgraph.geometry.kernels.tree import LEAF, first_face
 from cadgraph.model.scene import Floats, Ints
 
-__all__ = ["near_boxes"]
+__all__ = ["BoxTrees", "box_trees", "near_boxes"]
 
 _OCTAVES = 3  # sizes within a class differ by less than two to this power
 
@@ -37,19 +39,14 @@ def near_boxes(boxes: Floats, reach: float, workers: int | None = None) -> Ints:
         ValueError: ``workers`` is below 1.
     """
     n = len(boxes)
-    index = np.flatnonzero(np.isfinite(boxes).all(axis=(1, 2)))
-    if len(index) < 2:
+    trees = box_trees(boxes)
+    if len(trees.members) < 2:
         return np.zeros((0, 2), np.int64)
-    boxes = np.ascontiguousarray(boxes[index], np.float64)
-    order, class_offsets = _sort_boxes(boxes)
-    boxes, index = boxes[order], index[order]
-    leaves = -(-np.diff(class_offsets) // LEAF)
-    node_offsets = np.concatenate([[0], np.cumsum(np.maximum(2 * leaves - 1, 0))]).astype(np.int64)
-    nodes = np.empty((int(node_offsets[-1]), 2, 3))
-    _bound(boxes, class_offsets, nodes, node_offsets)
     found = gather(
-        lambda first, last: _search(first, last, boxes, index, reach, class_offsets, nodes, node_offsets, n),
-        np.ones(len(boxes), np.int64),
+        lambda first, last: _search(
+            first, last, trees.boxes, trees.members, reach, trees.class_offsets, trees.nodes, trees.node_offsets, n
+        ),
+        np.ones(len(trees.boxes), np.int64),
         workers,
     )
     keys = np.concatenate(found)
@@ -57,6 +54,44 @@ def near_boxes(boxes: Floats, reach: float, workers: int | None = None) -> Ints:
     pairs = np.empty((len(keys), 2), np.int64)
     np.divmod(keys, n, out=(pairs[:, 0], pairs[:, 1]))
     return pairs
+
+
+class BoxTrees(NamedTuple):
+    """Boxes in classes of like size, each class in a tree as those of faces are (``kernels.tree``).
+
+    Args:
+        boxes: ``(n, 2, 3)`` least and greatest corners of the finite ones, class by class [m].
+        members: ``(n,)`` the number of each among those given.
+        class_offsets: ``(n_classes + 1,)`` where the boxes of each class start.
+        nodes: ``(n_nodes, 2, 3)`` the boxes of the nodes [m].
+        node_offsets: ``(n_classes + 1,)`` the root of each class.
+    """
+
+    boxes: Floats
+    members: Ints
+    class_offsets: Ints
+    nodes: Floats
+    node_offsets: Ints
+
+
+def box_trees(boxes: Floats) -> BoxTrees:
+    """Trees over boxes, small ones and large ones apart.
+
+    Args:
+        boxes: ``(n, 2, 3)`` least and greatest corners [m]; one that is not finite is left out.
+    """
+    index = np.flatnonzero(np.isfinite(boxes).all(axis=(1, 2)))
+    if not len(index):
+        none = np.zeros((0, 2, 3))
+        return BoxTrees(none, index, np.zeros(1, np.int64), none, np.zeros(1, np.int64))
+    boxes = np.ascontiguousarray(boxes[index], np.float64)
+    order, class_offsets = _sort_boxes(boxes)
+    boxes, index = boxes[order], index[order]
+    leaves = -(-np.diff(class_offsets) // LEAF)
+    node_offsets = np.concatenate([[0], np.cumsum(np.maximum(2 * leaves - 1, 0))]).astype(np.int64)
+    nodes = np.empty((int(node_offsets[-1]), 2, 3))
+    _bound(boxes, class_offsets, nodes, node_offsets)
+    return BoxTrees(boxes, index, class_offsets, nodes, node_offsets)
 
 
 def _sort_boxes(boxes: Floats) -> tuple[Ints, Ints]:
