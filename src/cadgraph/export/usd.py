@@ -18,12 +18,13 @@ import numpy as np
 from pxr import Gf, Sdf, Tf, Vt
 
 from cadgraph._io.atomic import replacing
+from cadgraph._io.garbage import collector_paused
 from cadgraph._io.staging import result_path
 from cadgraph.errors import LoadError, OutputError
 from cadgraph.export.usd_labels import (
+    Stamps,
     add_structure,
     dispositions_of,
-    label_prim,
     parts_of_meshes,
     said_of,
     shared_parts,
@@ -93,6 +94,7 @@ def check_source(source_path: str | Path, path: str | Path) -> None:
         )
 
 
+@collector_paused()
 def write_semantics(scene: Scene, graph: SceneGraph, source_path: str | Path, path: str | Path) -> Path:
     """Writes the layer of labels, units and clusters over the source, which stays as it is.
 
@@ -126,7 +128,7 @@ def write_semantics(scene: Scene, graph: SceneGraph, source_path: str | Path, pa
     authorable = tuple(authorable_path(anchor) for anchor in anchors)
     layer = Sdf.Layer.CreateAnonymous(".usda")
     roots = _restate(layer, below, target, scene)
-    roots.update(prefix.name for anchor in authorable if anchor for prefix in anchor.GetPrefixes()[:1])
+    roots.update({anchor.split("/", 2)[1] for anchor, path in zip(anchors, authorable, strict=True) if path})
     with Sdf.ChangeBlock():
         _label_anchors(layer, authorable, scene, graph)
         add_structure(layer, unused("CadGraph", roots), graph, targets_of_parts(scene, graph, targets, authorable))
@@ -294,6 +296,7 @@ def _label_anchors(layer: Any, anchors: Sequence[Any], scene: Scene, graph: Scen
     dispositions = dispositions_of(graph)
     at_anchor: dict[Any, dict[str, Part]] = {}
     done_at: dict[Any, list[str]] = {}
+    stamps = Stamps(layer)
     for anchor, mesh, part in zip(anchors, scene.paths, parts_of_meshes(scene, graph), strict=True):
         if anchor is not None and part is not None:
             at_anchor.setdefault(anchor, {})[part.id] = part
@@ -304,10 +307,9 @@ def _label_anchors(layer: Any, anchors: Sequence[Any], scene: Scene, graph: Scen
         said = said_of(winner, done_at[anchor]) if winner is not None else None
         if winner is None or said is None:
             continue
-        prim = Sdf.CreatePrimInLayer(layer, anchor)
-        label_prim(prim, said, trace_of(winner))
+        stamps.label(anchor, said, trace_of(winner))
         if len(parts) > 1:
-            prim.customData = {"cadgraph": shared_parts(parts)}
+            layer.GetPrimAtPath(anchor).customData = {"cadgraph": shared_parts(parts)}
 
 
 # Units, clusters and what joins them

@@ -38,6 +38,7 @@ __all__ = [
     "GROUP",
     "UNIT",
     "Said",
+    "Stamps",
     "add_structure",
     "dispositions_of",
     "label_prim",
@@ -51,6 +52,7 @@ __all__ = [
 CLASS, CATEGORY, DISPOSITION, GROUP, UNIT = "class", "category", "disposition", "cad_group", "cad_unit"
 """The taxonomies."""
 
+_TRACED = (CLASS, GROUP)  # taxonomies that say where they come from
 _DONE = {"turn": ("turnable", "graspable"), "pull": ("turnable", "graspable"), "read": ("readable",)}
 # What one reads of a gauge, the surest first; all of it where none of these is named.
 _READ = (("gauge face", "gauge needle", "gauge glass"), ("gauge case",))
@@ -146,7 +148,40 @@ def label_prim(prim: Any, said: Said, trace: Mapping[str, Any] | None = None) ->
         taxonomies[DISPOSITION] = said.dispositions
     apply_schemas(prim, *(f"SemanticsLabelsAPI:{taxonomy}" for taxonomy in taxonomies))
     for taxonomy, tokens in taxonomies.items():
-        _say(prim, taxonomy, tokens, trace if taxonomy in (CLASS, GROUP) else None)
+        _say(prim, taxonomy, tokens, trace if taxonomy in _TRACED else None)
+
+
+class Stamps:
+    """Labels prims of a layer; those that are said to be the same get copies of one prim, which is a third of the work.
+
+    Args:
+        layer: the layer.
+    """
+
+    def __init__(self, layer: Any) -> None:
+        self._layer = layer
+        self._models = Sdf.Layer.CreateAnonymous(".usda")
+        self._path_of: dict[Said, Any] = {}
+
+    def label(self, path: Any, said: Said, trace: Mapping[str, Any]) -> None:
+        """Labels the prim at a path in all taxonomies of meshes; it is made, as an over, where it is not there."""
+        if self._layer.GetObjectAtPath(path):
+            # A copy would take the place of all that stands there and below.
+            label_prim(self._layer.GetPrimAtPath(path), said, trace)
+            return
+        Sdf.CreatePrimInLayer(self._layer, path)
+        Sdf.CopySpec(self._models, self._model(said), self._layer, path)
+        for taxonomy in _TRACED if trace else ():
+            attribute = self._layer.GetAttributeAtPath(path.AppendProperty(f"semantics:labels:{taxonomy}"))
+            attribute.SetInfo("customData", trace)
+
+    def _model(self, said: Said) -> Any:
+        found = self._path_of.get(said)
+        if found is None:
+            found = Sdf.Path.absoluteRootPath.AppendChild(f"Model_{len(self._path_of)}")
+            label_prim(Sdf.CreatePrimInLayer(self._models, found), said)
+            self._path_of[said] = found
+        return found
 
 
 def _label(prim: Any, taxonomy: str, tokens: Iterable[str], trace: Mapping[str, Any] | None = None) -> None:

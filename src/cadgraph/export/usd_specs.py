@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
+from functools import lru_cache
 from typing import Any
 
 from pxr import Sdf
@@ -33,6 +34,7 @@ def safe_text(text: str) -> str:
     return " ".join(CONTROL.sub(" ", text).split())
 
 
+@lru_cache(1 << 12)  # the names of a vocabulary come over and over
 def token(text: str) -> str:
     """A label without the characters that semantics readers split at."""
     return safe_text(_FORBIDDEN.sub(" ", text)) or "unnamed"
