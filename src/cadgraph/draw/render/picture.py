@@ -6,7 +6,7 @@ import os
 import threading
 from collections import OrderedDict
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 import numpy.typing as npt
@@ -29,7 +29,9 @@ Singles = npt.NDArray[np.float32]
 
 _KEPT_CASTERS = 4
 _MOST_THREADS = 16
-_GHOST_SAMPLES = 2  # nobody looks closely at what is only hinted at
+_GHOST_SAMPLES = 2  # nobody looks closely at what is only hinted at: it is drawn in a quarter of the pixels, too
+_LEAST_HALVED = 256  # [px] a smaller picture is not halved
+_THICK_LINES = 0.5  # lines of two pixels instead of one are so much fainter
 _SHARE, _GHOST_SHARE = 0.75, 1.0  # [px] of the nearest mesh: what is smaller needn't be told apart; among ghosts
 
 
@@ -223,15 +225,37 @@ class Renderer:
     ) -> Layer:
         """The meshes that are only hinted at, as far as none of the others stands before them."""
         samples = min(look.samples, _GHOST_SAMPLES)
-        surfaces = self.surfaces(port, self._around(port.camera), samples)
+        coarse = _of_half_size(port)
+        surfaces = self.surfaces(coarse, self._around(port.camera), samples)
         grey = colors.mean(axis=2, keepdims=True)
         # Half way to grey, then most of the way to white: still a hint of what it is.
         pale = (0.72 + 0.2 * (colors + grey) / 2).astype(np.float32)
         plain = np.zeros((len(colors), self.scene.n_meshes), bool)
-        return shade(
-            port, surfaces, open_air(port.width * port.height), lights, pale, plain, left_out, samples, look.lines,
+        lines = look.lines if coarse is port else _THICK_LINES * look.lines
+        layer = shade(
+            coarse, surfaces, open_air(coarse.width * coarse.height), lights, pale, plain, left_out, samples, lines,
             Haze(), behind, self.threads,
         )  # fmt: skip
+        return layer if coarse is port else _of_twice_the_size(layer, coarse)
+
+
+def _of_half_size(port: Viewport) -> Viewport:
+    """The same in a quarter of the pixels, where both sides can be halved."""
+    camera = port.camera
+    if camera.width % 2 or camera.height % 2 or min(camera.width, camera.height) < _LEAST_HALVED:
+        return port
+    return Viewport.whole(replace(camera, width=camera.width // 2, height=camera.height // 2))
+
+
+def _of_twice_the_size(layer: Layer, port: Viewport) -> Layer:
+    """Each pixel as four."""
+
+    def spread(values: Singles) -> Singles:
+        grid = values.reshape(port.height, port.width, -1)
+        return np.ascontiguousarray(grid.repeat(2, axis=0).repeat(2, axis=1).reshape(-1, *values.shape[1:]))
+
+    color = np.stack([spread(one) for one in layer.color])
+    return Layer(color, spread(layer.cover), spread(layer.depth), spread(layer.floor))
 
 
 def _ghosted(n_meshes: int, paints: Sequence[Paint]) -> Bools:

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
+from cadgraph.geometry.kernels.parallel import compiled
 from cadgraph.model.scene import Faces, Floats, Ints
 
 __all__ = ["pieces_of"]
@@ -24,23 +23,51 @@ def pieces_of(vertices: Floats, faces: Faces) -> Ints:
         ``(m,)`` numbers of pieces from 0 on, in the order of their first triangles; -1 for triangles with a corner that
         isn't there or is not finite.
     """
-    there = np.asarray(((faces >= 0) & (faces < len(vertices))).all(axis=1))
-    finite = np.asarray(np.isfinite(vertices).all(axis=1))
-    there[there] = finite[faces[there]].all(axis=1)
-    found = np.full(len(faces), -1, np.int64)
-    rows = faces[there]
-    if not len(rows):
-        return found
-    # Zeros have a sign, which is no other place.
-    used, corner = np.unique(rows, return_inverse=True)
-    _, place = np.unique(vertices[used] + 0.0, axis=0, return_inverse=True)
-    corners = place.reshape(-1)[corner.reshape(-1, 3)]
-    pairs = np.concatenate([corners[:, :2], corners[:, 1:]])
-    n = int(corners.max()) + 1
-    joined = connected_components(coo_array((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(n, n)))[1]
-    of_face = joined[corners[:, 0]]
-    _, first, number = np.unique(of_face, return_index=True, return_inverse=True)
-    rank = np.empty(len(first), np.int64)
-    rank[np.argsort(first, kind="stable")] = np.arange(len(first))
-    found[there] = rank[number.reshape(-1)]
+    corners = np.ascontiguousarray(vertices, np.float64)
+    found = np.empty(len(faces), np.int64)
+    order = np.lexsort(corners.T)
+    _number_pieces(corners, order, np.ascontiguousarray(faces, np.int64), found)
     return found
+
+
+@compiled
+def _number_pieces(vertices: Floats, order: Ints, faces: Ints, found: Ints) -> None:
+    """Joins corners by their places and by the triangles, then numbers what is joined."""
+    n = len(vertices)
+    # The corner that stands for all in one place, or -1; then a forest in which all of a piece have one root.
+    root, number = np.full(n, -1, np.int64), np.full(n, -1, np.int64)
+    before = -1
+    for v in order:
+        x, y, z = vertices[v, 0], vertices[v, 1], vertices[v, 2]
+        if not abs(x) + abs(y) + abs(z) < np.inf:
+            continue
+        # Zeros have a sign, which is no other place: equal as numbers.
+        same = before >= 0 and vertices[before, 0] == x and vertices[before, 1] == y and vertices[before, 2] == z
+        root[v] = root[before] if same else v
+        before = v
+    for f in range(len(faces)):
+        a, b, c = faces[f, 0], faces[f, 1], faces[f, 2]
+        if min(a, b, c) < 0 or max(a, b, c) >= n or root[a] < 0 or root[b] < 0 or root[c] < 0:
+            found[f] = -1
+            continue
+        found[f] = 0
+        a, b, c = _root(root, a), _root(root, b), _root(root, c)
+        root[b] = a
+        root[_root(root, c)] = a
+    count = 0
+    for f in range(len(faces)):
+        if found[f] < 0:
+            continue
+        a = _root(root, faces[f, 0])
+        if number[a] < 0:
+            number[a] = count
+            count += 1
+        found[f] = number[a]
+
+
+@compiled
+def _root(root: Ints, at: int) -> int:
+    while root[at] != at:
+        root[at] = root[root[at]]
+        at = root[at]
+    return at

@@ -1,4 +1,4 @@
-"""Kernels that ask whether points on meshes can be seen from far away.
+"""Kernels that ask whether points on meshes can be seen from far away, and points from each other.
 
 The trees over the faces of each mesh are those of the contact search, and a tree over the boxes of the meshes stands
 above them. What stopped one ray is asked first about the next, since that mostly stops it too.
@@ -17,7 +17,7 @@ from cadgraph.geometry.kernels.tree import LEAF, first_face
 from cadgraph.model.parts import Bools
 from cadgraph.model.scene import Faces, Floats, Ints
 
-__all__ = ["count_seen"]
+__all__ = ["are_blocked", "count_seen"]
 
 # The golden ratio's relatives: successive multiples spread evenly over the unit square (R2 sequence, Roberts 2018).
 _STEP_U, _STEP_V = 0.7548776662466927, 0.5698402909980532
@@ -60,6 +60,40 @@ def count_seen(
 
 
 @compiled
+def are_blocked(
+    meshes: Placed, tops: BoxTrees, first: int, last: int, starts: Floats, ends: Floats, spare: float, blocked: Bools
+) -> None:
+    """Finds out which straight lines between points meet a mesh.
+
+    Args:
+        meshes: all meshes.
+        tops: trees over their boxes.
+        first: line to begin with.
+        last: line to end before.
+        starts: ``(n, 3)`` [m].
+        ends: ``(n, 3)`` [m].
+        spare: what is met so close to the end of a line doesn't count [m].
+        blocked: ``(n,)`` takes the answers.
+    """
+    stack, below, ray = np.empty(DEPTH, np.int64), np.empty(DEPTH, np.int64), np.empty((4, 3))
+    before = -1
+    for i in range(first, last):
+        length = 0.0
+        for k in range(3):
+            ray[0, k], ray[1, k] = starts[i, k], ends[i, k] - starts[i, k]
+            length += ray[1, k] * ray[1, k]
+        length = np.sqrt(length)
+        blocked[i] = False
+        if not spare < length < np.inf:
+            continue
+        for k in range(3):
+            ray[1, k] /= length
+        if before < 0 or not _stops(meshes, before, ray, length - spare, below):
+            before = _in_the_way(meshes, tops, ray, length - spare, stack, below)
+        blocked[i] = before >= 0
+
+
+@compiled
 def _seen_of(
     meshes: Placed, tops: BoxTrees, mesh: int, points: Floats, normals: Floats, directions: Floats, off: float,
     first_only: bool, stack: Ints, below: Ints, ray: Floats, out: Bools,
@@ -79,12 +113,12 @@ def _seen_of(
             for k in range(3):
                 ray[0, k] = points[p, k] + side * normals[p, k]
                 ray[1, k] = directions[d, k]
-            if before >= 0 and _stops(meshes, before, ray, below):
+            if before >= 0 and _stops(meshes, before, ray, np.inf, below):
                 continue
-            if before != mesh and _stops(meshes, mesh, ray, below):
+            if before != mesh and _stops(meshes, mesh, ray, np.inf, below):
                 before = mesh
                 continue
-            stopped_by = _first_in_the_way(meshes, tops, ray, stack, below)
+            stopped_by = _in_the_way(meshes, tops, ray, np.inf, stack, below)
             if stopped_by >= 0:
                 before = stopped_by
                 continue
@@ -146,8 +180,8 @@ def _sides(
 
 
 @compiled
-def _first_in_the_way(meshes: Placed, tops: BoxTrees, ray: Floats, stack: Ints, below: Ints) -> int:
-    """A mesh that a ray meets, or -1."""
+def _in_the_way(meshes: Placed, tops: BoxTrees, ray: Floats, reach: float, stack: Ints, below: Ints) -> int:
+    """A mesh that a ray meets before its end, or -1."""
     boxes, nodes = borrow(tops.boxes), borrow(tops.nodes)
     sx, sy, sz = _inverse(ray[1, 0]), _inverse(ray[1, 1]), _inverse(ray[1, 2])
     x, y, z = ray[0, 0], ray[0, 1], ray[0, 2]
@@ -161,7 +195,7 @@ def _first_in_the_way(meshes: Placed, tops: BoxTrees, ray: Floats, stack: Ints, 
         while top > 0:
             top -= 1
             node = stack[top]
-            if _passes_box(nodes, base + node, x, y, z, sx, sy, sz):
+            if _passes_box(nodes, base + node, x, y, z, sx, sy, sz, reach):
                 continue
             if node < n_leaves - 1:
                 stack[top], stack[top + 1] = 2 * node + 2, 2 * node + 1
@@ -169,7 +203,9 @@ def _first_in_the_way(meshes: Placed, tops: BoxTrees, ray: Floats, stack: Ints, 
                 continue
             start = first_face(node, n_leaves)
             for b in range(b0 + start, b0 + min(start + LEAF, n)):
-                if not _passes_box(boxes, b, x, y, z, sx, sy, sz) and _stops(meshes, tops.members[b], ray, below):
+                if _passes_box(boxes, b, x, y, z, sx, sy, sz, reach):
+                    continue
+                if _stops(meshes, tops.members[b], ray, reach, below):
                     return int(tops.members[b])
     return -1
 
@@ -181,7 +217,7 @@ def _inverse(slope: float) -> float:
 
 @compiled
 def _passes_box(
-    boxes: Floats, i: int, x: float, y: float, z: float, sx: float, sy: float, sz: float
+    boxes: Floats, i: int, x: float, y: float, z: float, sx: float, sy: float, sz: float, reach: float
 ) -> bool:  # fmt: skip
     """Whether a ray meets nothing of a box given by its corners."""
     a, b = (boxes[i, 0, 0] - x) * sx, (boxes[i, 1, 0] - x) * sx
@@ -191,12 +227,12 @@ def _passes_box(
     a, b = (boxes[i, 0, 2] - z) * sz, (boxes[i, 1, 2] - z) * sz
     low, high = max(low, min(a, b)), min(high, max(a, b))
     room = _SLACK * (1.0 + abs(high))
-    return bool(low > high + room or high < -room)
+    return bool(low > high + room or high < -room or low > reach + room)
 
 
 @compiled
-def _stops(meshes: Placed, mesh: int, ray: Floats, stack: Ints) -> bool:
-    """Whether a ray meets a mesh; rows 2 and 3 of the ray are overwritten."""
+def _stops(meshes: Placed, mesh: int, ray: Floats, reach: float, stack: Ints) -> bool:
+    """Whether a ray meets a mesh before its end; rows 2 and 3 of the ray are overwritten."""
     nodes, vertices, faces = borrow(meshes.nodes), borrow(meshes.vertices), borrow(meshes.faces)
     n, v0, f0, base = (
         meshes.counts[mesh], meshes.vertex_offsets[mesh], meshes.face_offsets[mesh], meshes.node_offsets[mesh],
@@ -217,7 +253,7 @@ def _stops(meshes: Placed, mesh: int, ray: Floats, stack: Ints) -> bool:
     while top > 0:
         top -= 1
         node = stack[top]
-        if _passes_node(nodes, base + node, bx, by, bz, sx, sy, sz):
+        if _passes_node(nodes, base + node, bx, by, bz, sx, sy, sz, reach):
             continue
         if node < n_leaves - 1:
             stack[top], stack[top + 1] = 2 * node + 2, 2 * node + 1
@@ -225,14 +261,14 @@ def _stops(meshes: Placed, mesh: int, ray: Floats, stack: Ints) -> bool:
             continue
         start = first_face(node, n_leaves)
         for f in range(f0 + start, f0 + min(start + LEAF, n)):
-            if _meets(vertices, faces, v0, f, x, y, z, dx, dy, dz):
+            if _meets(vertices, faces, v0, f, x, y, z, dx, dy, dz, reach):
                 return True
     return False
 
 
 @compiled
 def _passes_node(
-    nodes: Nodes, i: int, x: float, y: float, z: float, sx: float, sy: float, sz: float
+    nodes: Nodes, i: int, x: float, y: float, z: float, sx: float, sy: float, sz: float, reach: float
 ) -> bool:  # fmt: skip
     """Whether a ray meets nothing of a box given by its centre and half extents."""
     at, half = (np.float64(nodes[i, 0]) - x) * sx, np.float64(nodes[i, 3]) * abs(sx)
@@ -242,14 +278,15 @@ def _passes_node(
     at, half = (np.float64(nodes[i, 2]) - z) * sz, np.float64(nodes[i, 5]) * abs(sz)
     low, high = max(low, at - half), min(high, at + half)
     room = _SLACK * (1.0 + abs(high))
-    return bool(low > high + room or high < -room)
+    return bool(low > high + room or high < -room or low > reach + room)
 
 
 @compiled
 def _meets(
-    vertices: Floats, faces: Faces, v0: int, face: int, x: float, y: float, z: float, dx: float, dy: float, dz: float
-) -> bool:
-    """Whether a ray meets a face, from either side (Moeller and Trumbore 1997)."""
+    vertices: Floats, faces: Faces, v0: int, face: int, x: float, y: float, z: float, dx: float, dy: float, dz: float,
+    reach: float,
+) -> bool:  # fmt: skip
+    """Whether a ray meets a face before its end, from either side (Moeller and Trumbore 1997)."""
     a = v0 + faces[face, 0]
     ux, uy, uz, vx, vy, vz = _sides(vertices, faces, v0, face)
     hx, hy, hz = dy * vz - dz * vy, dz * vx - dx * vz, dx * vy - dy * vx
@@ -264,4 +301,4 @@ def _meets(
     t = (dx * qx + dy * qy + dz * qz) / det
     if not (t >= -_SLACK and s + t <= 1.0 + _SLACK):
         return False
-    return bool((vx * qx + vy * qy + vz * qz) / det > 0.0)
+    return bool(0.0 < (vx * qx + vy * qy + vz * qz) / det < reach)
