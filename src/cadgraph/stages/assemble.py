@@ -403,19 +403,19 @@ def _systems(results: Results, ends: Sequence[str]) -> list[System]:
 
 def _joints(results: Results, part_ids: Sequence[str]) -> list[Joint]:
     """What the connections are made of and what they might have been, by the parts that join and the place."""
-    origin = results.scene.origin
+    places = points(_table([joint.point for joint in results.network.joints]) + results.scene.origin)
     found = [
         Joint(
             first=part_ids[joint.first],
             second=part_ids[joint.second],
             kind=joint.kind,
-            point=_point(joint.point, origin),
+            point=place,
             gap=_rounded(joint.gap),
             score=round(joint.score, 6),
             made=joint.made,
             reasons=joint.reasons,
         )
-        for joint in results.network.joints
+        for joint, place in zip(results.network.joints, places, strict=True)
     ]
     return sorted(found, key=lambda joint: (joint.first, joint.second, joint.point, joint.kind, not joint.made))
 
@@ -519,6 +519,10 @@ def _extent(
     corners = [centroid, measured.aabb[index, 0].min(axis=0), measured.aabb[index, 1].max(axis=0)]
     middle, low, high = points(np.array(corners) + results.scene.origin)
     return middle, low, high
+
+
+def _table(rows: Sequence[Point]) -> Floats:
+    return np.array(rows, np.float64).reshape(-1, 3)
 
 
 def _rounded(value: float) -> float:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -37,6 +37,11 @@ class Branch:
     def widest(self) -> float:
         """The greatest outer radius along it [m]."""
         return float(self.radius.max())
+
+    @cached_property
+    def narrowest(self) -> float:
+        """The least outer radius along it [m]."""
+        return float(self.radius.min())
 
 
 @dataclass(frozen=True)
@@ -106,9 +111,12 @@ class Centreline:
             shift: ``(3,)`` translation after it [m].
         """
         return Centreline(
-            tuple(replace(branch, points=branch.points @ turn.T + shift) for branch in self.branches),
-            tuple(replace(end, point=turn @ end.point + shift, direction=turn @ end.direction) for end in self.ends),
-            tuple(replace(junction, point=turn @ junction.point + shift) for junction in self.junctions),
+            tuple(Branch(one.points @ turn.T + shift, one.radius, one.bore, one.closed) for one in self.branches),
+            tuple(
+                End(turn @ one.point + shift, turn @ one.direction, one.radius, one.bore, one.branch)
+                for one in self.ends
+            ),
+            tuple(Junction(turn @ one.point + shift, one.branches) for one in self.junctions),
             self.share,
         )
 

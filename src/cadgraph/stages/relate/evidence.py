@@ -54,7 +54,8 @@ class Curve:
 
     def __call__(self, value: Floats | float) -> Floats:
         """The contribution at a value, or at each of several; 0 where it is not known (NaN)."""
-        return np.asarray(np.nan_to_num(np.interp(value, self.at, self.gives), nan=0.0), np.float64)
+        given = np.interp(value, self.at, self.gives)
+        return np.where(np.isnan(given), 0.0, given)
 
     def at_one(self, value: float) -> float:
         """The same at one value, without an array."""

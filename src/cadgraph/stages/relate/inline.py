@@ -130,8 +130,8 @@ def _straight(piping: Piping, part: int, line: Centreline) -> _Piece | None:
     piece = _piece(piping, (part,), (rows[0], rows[1]), 1.0)
     if piece is None:
         return None
-    piece = replace(piece, waist=_narrowest(line, piping, rows))
-    return piece if is_disc(line) else replace(piece, thicker=_thicker(piping, piece))
+    thicker = piece.thicker if is_disc(line) else _thicker(piping, piece)
+    return replace(piece, waist=_narrowest(line, piping, rows), thicker=thicker)
 
 
 def _thicker(piping: Piping, piece: _Piece) -> float:

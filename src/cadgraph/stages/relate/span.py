@@ -83,11 +83,13 @@ def _without(parts: tuple[int, ...], others: tuple[int, ...]) -> tuple[int, ...]
 
 def _heading(points: Floats) -> Floats | None:
     """Where a span heads at its end; None where all of it is in one place."""
-    steps = points[-1] - points[:-1]
-    lengths = np.linalg.norm(steps, axis=1)
-    # Between points that only rounding keeps apart any direction would come out.
-    apart = np.flatnonzero(lengths > _SAME_PLACE)
-    return steps[apart[-1]] / lengths[apart[-1]] if len(apart) else None
+    for k in range(len(points) - 2, -1, -1):
+        step: Floats = points[-1] - points[k]
+        length = length_of(step)
+        # Between points that only rounding keeps apart any direction would come out.
+        if length > _SAME_PLACE:
+            return step / length
+    return None
 
 
 @dataclass

@@ -283,7 +283,9 @@ def _jackets(given: RelateInput, traced: Mapping[int, Centreline], sure: Mapping
 
 def _is_jacket(line: Centreline, around: Sequence[Centreline]) -> bool:
     """Whether thinner lines run in the middle of a long one, or a single one right through a short one."""
-    radius = float(line.branches[0].radius.max())
+    radius = line.branches[0].widest
+    if line.length < min(1.0, _LEAST_JACKET) * radius:
+        return False
     thinner = [one for one in around if _least_radius(one) <= _THINNER * radius]
     if not thinner:
         return False
@@ -296,7 +298,7 @@ def _is_jacket(line: Centreline, around: Sequence[Centreline]) -> bool:
 
 
 def _least_radius(line: Centreline) -> float:
-    return min(float(branch.radius.min()) for branch in line.branches)
+    return min(branch.narrowest for branch in line.branches)
 
 
 def _along(branch: Branch) -> Floats:
