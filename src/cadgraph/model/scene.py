@@ -340,10 +340,12 @@ class Scene:
 
         Returns:
             A scene of ``n_parts`` meshes; within a part its meshes follow in their order here. A part of one mesh
-            keeps the shape of that.
+            keeps the shape of that. This very scene where each mesh is a part and they stay in their order.
         """
         parts = np.asarray(part_of_mesh, np.int64)
         heads = np.asarray(head_of_part, np.int64)
+        if len(heads) == self.n_meshes and (heads == np.arange(self.n_meshes)).all() and (parts == heads).all():
+            return self
         count = np.bincount(parts, minlength=len(heads))
         rest = self._rest(heads.tolist())
         if self.placement is None or (count > 1).all():

@@ -29,7 +29,7 @@ def make_parts(scene: Scene, properties: Properties, head_of_mesh: Ints, ground:
     heads, part_of_mesh = np.unique(head_of_mesh, return_inverse=True)
     part_of_mesh = part_of_mesh.reshape(-1).astype(np.int64)
     merged = scene.merge(part_of_mesh, heads)
-    measured = measure(merged)
+    measured = properties if merged is scene else measure(merged)
     # The head is the largest by the volume that grouping went by; the rest follow by their boxes.
     joined = heads[part_of_mesh] != np.arange(scene.n_meshes)
     rest = np.lexsort((np.arange(scene.n_meshes), -properties.obb_volume, joined))
