@@ -98,6 +98,11 @@ class Centreline:
         return sum(branch.length for branch in self.branches)
 
     @cached_property
+    def narrowest(self) -> float:
+        """The least outer radius along all branches [m]."""
+        return min(branch.narrowest for branch in self.branches)
+
+    @cached_property
     def table_of_ends(self) -> Floats:
         """``(n_ends, 9)`` point, direction, radius, bore of each end, and the length of its branch [m]."""
         rows = [(*e.point, *e.direction, e.radius, e.bore, self.branches[e.branch].length) for e in self.ends]

@@ -284,21 +284,19 @@ def _jackets(given: RelateInput, traced: Mapping[int, Centreline], sure: Mapping
 def _is_jacket(line: Centreline, around: Sequence[Centreline]) -> bool:
     """Whether thinner lines run in the middle of a long one, or a single one right through a short one."""
     radius = line.branches[0].widest
-    if line.length < min(1.0, _LEAST_JACKET) * radius:
+    thinner = [one for one in around if one.narrowest <= _THINNER * radius]
+    if line.length < min(1.0, _LEAST_JACKET) * radius or not thinner:
         return False
-    thinner = [one for one in around if _least_radius(one) <= _THINNER * radius]
-    if not thinner:
-        return False
-    points = np.concatenate([_along(branch) for branch in line.branches])
-    beyond = np.array([end.point + _BEYOND * radius * end.direction for end in line.ends]).reshape(-1, 3)
+    points, beyond = np.concatenate([_along(branch) for branch in line.branches]), _beyond(line, _BEYOND * radius)
     inner = [_runs_within(np.concatenate([points, beyond]), radius, one) for one in thinner]
     through = bool(np.all(inner, axis=1).any())
     share = float(np.any(inner, axis=0)[: len(points)].mean())
     return (line.length >= radius and through) or (line.length >= _LEAST_JACKET * radius and share >= _JACKET)
 
 
-def _least_radius(line: Centreline) -> float:
-    return min(branch.narrowest for branch in line.branches)
+def _beyond(line: Centreline, far: float) -> Floats:
+    """``(n_ends, 3)`` places beyond the ends of a line [m]."""
+    return np.array([end.point + far * end.direction for end in line.ends]).reshape(-1, 3)
 
 
 def _along(branch: Branch) -> Floats:
