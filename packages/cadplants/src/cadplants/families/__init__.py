@@ -15,10 +15,10 @@ from cadplants.families.utilities.safety import SAFETY
 from cadplants.families.utilities.utility import UTILITIES
 from cadplants.families.valves.isolating import ISOLATING
 from cadplants.families.valves.protecting import PROTECTING
-from cadplants.families.valves.small import SMALL_VALVES
+from cadplants.families.valves.threaded import THREADED
 from cadplants.families.valves.valve import VALVE_FAMILIES
 from cadplants.families.vessels.equipment import EQUIPMENT
-from cadplants.families.vessels.plantware import PLANTWARE
+from cadplants.families.vessels.kinds import KINDS_OF_VESSELS
 from cadplants.families.vessels.vessel import VESSELS
 from cadplants.family import Family
 
@@ -30,7 +30,7 @@ FAMILIES: dict[str, Family] = {
     for family in (
         *KNOWN,
         *VALVE_FAMILIES,
-        *SMALL_VALVES,
+        *THREADED,
         *FITTINGS,
         *INSTRUMENTS,
         *ROTATING,
@@ -44,7 +44,7 @@ FAMILIES: dict[str, Family] = {
         *MEASURING,
         *PIPEWORK,
         *MACHINES,
-        *PLANTWARE,
+        *KINDS_OF_VESSELS,
         *SUPPORTS,
         *STEELWORK,
         *UTILITIES,

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from cadplants.families.instruments.flow import measuring_tube, meter_family
-from cadplants.families.instruments.kit import CASE, JOINT, bent, housing, piece, screws
-from cadplants.families.valves.small import hex_end
+from cadplants.families.instruments.pieces import CASE, JOINT, bent, housing, piece, screws
+from cadplants.families.valves.threaded import hex_end
 from cadplants.families.valves.valve import disc_flange
 from cadplants.family import Family, Model, Part, Port, placed
 from cadplants.mesh_ops import Solid, extrude, merge, moved

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from cadplants.families.instruments.kit import JOINT, STEM, bent, gland, housing, piece, t_handle
+from cadplants.families.instruments.pieces import JOINT, STEM, bent, gland, housing, piece, t_handle
 from cadplants.families.instruments.pressure import differential_cell
 from cadplants.families.valves.valve import flanged_body
 from cadplants.family import Family, Model, Part, placed

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from cadgraph.model.scene import Floats
-from cadplants.families.valves.small import hex_end
+from cadplants.families.valves.threaded import hex_end
 from cadplants.families.valves.valve import bolt_circle, disc_flange, flanged_body
 from cadplants.family import Family, Model, Part, fronted, placed
 from cadplants.flange import nut_room, plate_thickness
@@ -83,7 +83,7 @@ def _mount(style: ModelingStyle, rng: np.random.Generator) -> tuple[list[Part], 
         path[1:-1, 2] += np.linspace(0, 0.006, 17)
         parts = placed([Part(tube(path, r, 0.0, n), "siphon", "trim", "siphon")], np.eye(4))
         nut = moved(hexagon(0.022, 0.05 + 2 * reach, 0.075 + 2 * reach), at(0, 0.022, 0))
-        return [*parts, Part(moved(nut, at()), "siphon", "trim", "siphon")], 0.075 + 2 * reach
+        return [*parts, Part(nut, "siphon", "trim", "siphon")], 0.075 + 2 * reach
     if kind == 2:  # a U siphon
         a, b, deep = 0.0, 0.07, 0.05
         path = np.vstack(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from cadplants.families.instruments.kit import (
+from cadplants.families.instruments.pieces import (
     CASE,
     FRAME,
     JOINT,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from cadplants.families.instruments.kit import (
+from cadplants.families.instruments.pieces import (
     JOINT,
     STEM,
     bent,
@@ -16,7 +16,7 @@ from cadplants.families.instruments.kit import (
     stand,
     t_handle,
 )
-from cadplants.families.valves.small import hex_end
+from cadplants.families.valves.threaded import hex_end
 from cadplants.families.valves.valve import bolt_circle, disc_flange, flanged_body
 from cadplants.family import Family, Model, Part, placed
 from cadplants.flange import plate_thickness

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from cadplants.families.instruments.kit import JOINT, fine_sides, piece, screws
+from cadplants.families.instruments.pieces import JOINT, fine_sides, piece, screws
 from cadplants.families.valves.valve import disc_flange
 from cadplants.family import Family, Model, Part, placed
 from cadplants.flange import plate_thickness

@@ -11,7 +11,7 @@ from cadplants.builder.device import Device, families_of
 from cadplants.builder.dials import STEM, Housing, Indicator, Shank, StandingGauge, fine_sides, upright
 from cadplants.builder.params import Params, among, between, chance, nested, weighted, whole
 from cadplants.builder.table import Table, outline
-from cadplants.families.instruments.kit import bent, t_handle
+from cadplants.families.instruments.pieces import bent, t_handle
 from cadplants.family import Model
 from cadplants.mesh_ops import Solid, merge, moved
 from cadplants.primitives import along, around, box, cylinder, hexagon, rope, turned

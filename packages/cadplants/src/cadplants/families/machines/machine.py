@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from cadplants.families.machines.air import AIR
+from cadplants.families.machines.column_pumps import SPECIAL
 from cadplants.families.machines.compressor import COMPRESSORS
 from cadplants.families.machines.displacing import DISPLACING
 from cadplants.families.machines.fired import FIRED
+from cadplants.families.machines.metering import SMALL
 from cadplants.families.machines.rotary import ROTARY
-from cadplants.families.machines.small import SMALL
-from cadplants.families.machines.special import SPECIAL
 from cadplants.families.machines.wheels import WHEELS
 from cadplants.family import Family
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from cadgraph.model.scene import Floats
-from cadplants.families.valves.small import hex_end
+from cadplants.families.valves.threaded import hex_end
 from cadplants.families.valves.valve import bolt_circle, disc_flange, flanged_body
 from cadplants.family import Family, Model, Part
 from cadplants.flange import nut_room, plate_thickness

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from cadplants.families.piping.bar_stock import SPECIALS
 from cadplants.families.piping.bend import BENDS
 from cadplants.families.piping.branch import BRANCHES
 from cadplants.families.piping.coupling import COUPLINGS
@@ -9,7 +10,6 @@ from cadplants.families.piping.flange import FLANGINGS
 from cadplants.families.piping.flexible import FLEXIBLES
 from cadplants.families.piping.hose import HOSES
 from cadplants.families.piping.reducer import REDUCERS
-from cadplants.families.piping.special import SPECIALS
 from cadplants.families.piping.strainer import STRAINERS
 from cadplants.families.piping.union import UNIONS
 from cadplants.family import Family

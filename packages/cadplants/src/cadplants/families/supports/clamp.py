@@ -206,10 +206,7 @@ def _cushion(dn: int, style: ModelingStyle, rng: np.random.Generator, height: fl
     shell = strap(path, wide, thick)
     parts = [piece(moved(shell, m), "clamp", "clamp") for m in (np.eye(4), spun("z", np.pi))]
     hooks = [box((wide, 0.012, 0.004), (0, s * (y + 0.005), -inner - 0.014)) for s in (-1, 1)]
-    parts = [
-        Part(merge([p.solid, moved(h, at())]), p.name, p.color, p.bundle)
-        for p, h in zip(parts, hooks[::-1], strict=True)
-    ]
+    parts = [Part(merge([p.solid, h]), p.name, p.color, p.bundle) for p, h in zip(parts, hooks[::-1], strict=True)]
     pose = at(0, y + thick / 2, inner + 0.6 * lug) @ spun("x", np.pi / 2)
     parts += bolt_parts(
         0.006 + 0.02 * r, 2 * y + thick, pose, style, "clamp", str(rng.choice(["hex", "socket", "carriage"]))

@@ -319,7 +319,7 @@ def _loose(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
         elif kind == "socket":
             head = extrude(circle(0.75 * d, n), 0.5 * d, 1.0 * d, (circle(0.45 * d, 6),))
             bolt = merge([head, cylinder(0.75 * d, 0.0, 0.5 * d, n), _thread(d, 0.95 * d, d + length, style)])
-            parts.append(Part(moved(moved(bolt, at()), pose), "screw", "fastener"))
+            parts.append(Part(moved(bolt, pose), "screw", "fastener"))
         elif kind == "nut":
             parts.append(Part(moved(hexagon(1.5 * d, 0.0, 0.85 * d, 0.5 * d, n), pose), "nut", "fastener"))
         elif kind == "flange nut":

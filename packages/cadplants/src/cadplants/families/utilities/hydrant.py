@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from cadplants.families.utilities.kit import FRAME, GROUP, JOINT, wall
+from cadplants.families.utilities.mounting import FRAME, GROUP, JOINT, wall
 from cadplants.family import Family, Model, Part
 from cadplants.mesh_ops import extrude, merge, moved
 from cadplants.modeling_style import ModelingStyle
@@ -151,7 +151,7 @@ def _standpipe(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
         outer, inner = rounded_rectangle(0.5, 0.36, 0.04, 3), rounded_rectangle(0.4, 0.26, 0.02, 3)
         rim = extrude(outer, 0.0, 0.03, (inner,))
         lid = moved(box((0.4, 0.02, 0.26)), at(0, 0.188, 0.155))
-        tags = [Part(moved(rim, at()), _H, "rubber", _H), Part(lid, _H, "rubber", _H)]
+        tags = [Part(rim, _H, "rubber", _H), Part(lid, _H, "rubber", _H)]
         stub = box((0.42, 0.28, 0.004), (0, 0, 0.002))
         parts += [*tags, Part(stub, _H, "rubber", _H)]
     return Model(parts)

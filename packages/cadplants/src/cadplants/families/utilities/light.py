@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from cadplants.families.chance import pick
-from cadplants.families.utilities.kit import GROUP, JOINT, back, beam_over, h_column, hanger, pole, wall
+from cadplants.families.utilities.mounting import GROUP, JOINT, back, beam_over, h_column, hanger, pole, wall
 from cadplants.family import Family, Model, Part
 from cadplants.mesh_ops import about_x, extrude, merge, moved
 from cadplants.modeling_style import ModelingStyle

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from cadplants.families.chance import pick
-from cadplants.families.utilities.kit import FRAME, GROUP, JOINT, gland, h_column, pole, wall
+from cadplants.families.utilities.mounting import FRAME, GROUP, JOINT, gland, h_column, pole, wall
 from cadplants.family import Family, Model, Part
 from cadplants.mesh_ops import Solid, about_x, extrude, merge, moved
 from cadplants.modeling_style import ModelingStyle

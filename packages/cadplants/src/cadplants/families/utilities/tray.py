@@ -8,7 +8,7 @@ import numpy as np
 
 from cadgraph.model.scene import Floats
 from cadplants.families.chance import pick
-from cadplants.families.utilities.kit import FRAME, GROUP, JOINT, beam_over, h_column, hanger, several, wall
+from cadplants.families.utilities.mounting import FRAME, GROUP, JOINT, beam_over, h_column, hanger, several, wall
 from cadplants.family import Family, Model, Part
 from cadplants.mesh_ops import Solid, extrude, lattice, merge, moved
 from cadplants.modeling_style import ModelingStyle

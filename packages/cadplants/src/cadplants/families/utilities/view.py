@@ -6,7 +6,7 @@ import numpy as np
 
 from cadgraph.model.scene import Floats
 from cadplants.families.chance import pick
-from cadplants.families.utilities.kit import FRAME, GROUP, JOINT, back, beam_over, pole, wall
+from cadplants.families.utilities.mounting import FRAME, GROUP, JOINT, back, beam_over, pole, wall
 from cadplants.family import Family, Model, Part
 from cadplants.mesh_ops import Solid, about_x, extrude, merge, moved
 from cadplants.modeling_style import ModelingStyle

@@ -8,7 +8,7 @@ from cadgraph.model.scene import Floats
 from cadplants.families.valves.actuation_base import bolted
 from cadplants.families.valves.actuation_hand import slab, span
 from cadplants.families.valves.drive import BODY
-from cadplants.families.valves.small import hex_end
+from cadplants.families.valves.threaded import hex_end
 from cadplants.families.valves.valve import flanged_body
 from cadplants.family import Part
 from cadplants.flange import plate_thickness

@@ -20,7 +20,7 @@ from cadplants.families.valves.parts import (
     screwed,
     square,
 )
-from cadplants.families.valves.small import hex_end
+from cadplants.families.valves.threaded import hex_end
 from cadplants.families.valves.valve import flanged_body, valve_family
 from cadplants.family import Family, Model, Part, placed
 from cadplants.mesh_ops import Solid, extrude, merge, moved, tube

@@ -16,7 +16,7 @@ from cadplants.families.valves.body import (
     trim,
 )  # fmt: skip
 from cadplants.families.valves.globe import globe_body, globe_plug
-from cadplants.families.valves.small import hex_end
+from cadplants.families.valves.threaded import hex_end
 from cadplants.families.valves.valve import disc_flange, valve_family
 from cadplants.family import Family, Model, Part, placed
 from cadplants.mesh_ops import Solid, about_x, merge, moved

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from cadgraph.model.scene import Floats
-from cadplants.families.valves.small import hex_end
+from cadplants.families.valves.threaded import hex_end
 from cadplants.families.valves.valve import bolt_circle, disc_flange
 from cadplants.family import Part
 from cadplants.mesh_ops import Solid, about_x, extrude, merge, moved

@@ -17,7 +17,7 @@ from cadplants.families.valves.body import (
     valve_ball,
 )  # fmt: skip
 from cadplants.families.valves.drive import BODY
-from cadplants.families.valves.small import hex_end
+from cadplants.families.valves.threaded import hex_end
 from cadplants.families.valves.valve import valve_family
 from cadplants.family import Family, Model, Part, placed
 from cadplants.mesh_ops import Solid, about_x, merge, moved

@@ -8,9 +8,9 @@ from cadgraph.model.scene import Floats
 from cadplants.builder.device import Device, families_of
 from cadplants.builder.params import Params, among, between, chance, several, whole
 from cadplants.builder.table import Table, outline
-from cadplants.families.vessels.heatware import equipment_mouth
-from cadplants.families.vessels.vesselware import head, sides
-from cadplants.families.vessels.warmware import wall_behind
+from cadplants.families.vessels.exchangers import equipment_mouth
+from cadplants.families.vessels.radiators import wall_behind
+from cadplants.families.vessels.vessel_fittings import head, sides
 from cadplants.family import Model, Port
 from cadplants.mesh_ops import Solid, extrude, moved
 from cadplants.polygon import rounded_rectangle

@@ -7,8 +7,8 @@ import numpy as np
 from cadplants.builder.device import Device, families_of
 from cadplants.builder.params import between, chance, several, whole
 from cadplants.builder.table import Table, outline
-from cadplants.families.vessels.heatware import equipment_mouth, frame_of
-from cadplants.families.vessels.vesselware import sides
+from cadplants.families.vessels.exchangers import equipment_mouth, frame_of
+from cadplants.families.vessels.vessel_fittings import sides
 from cadplants.family import Model, Port
 from cadplants.mesh_ops import Solid, extrude, merge
 from cadplants.primitives import along, around, box, cylinder, hexagon, lofted, rod, turned

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from cadplants.families.vessels.vessel_fittings import Drum, capped, head, manway, mouth, sides
 from cadplants.families.vessels.vesselbuild import outlet, tank_family
 from cadplants.families.vessels.vesselfeet import foot_plate, ladder, legs, ringed_rail
-from cadplants.families.vessels.vesselware import Drum, capped, head, manway, mouth, sides
 from cadplants.family import Family, Model, Part, Port, placed
 from cadplants.mesh_ops import Solid, merge, moved, revolve, sweep, weld
 from cadplants.modeling_style import ModelingStyle

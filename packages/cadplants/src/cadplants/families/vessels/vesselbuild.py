@@ -7,8 +7,7 @@ from functools import partial
 import numpy as np
 
 from cadgraph.model.scene import Floats
-from cadplants.families.vessels.vesselfeet import legs, saddle, skirt
-from cadplants.families.vessels.vesselware import (
+from cadplants.families.vessels.vessel_fittings import (
     Drum,
     fall,
     head,
@@ -19,6 +18,7 @@ from cadplants.families.vessels.vesselware import (
     mouth_reach,
     sides,
 )
+from cadplants.families.vessels.vesselfeet import legs, saddle, skirt
 from cadplants.family import Build, Family, Model, Part, Port, placed
 from cadplants.mesh_ops import moved
 from cadplants.modeling_style import ModelingStyle

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from cadgraph.model.scene import Floats
-from cadplants.families.vessels.vesselware import Drum, wrapped
+from cadplants.families.vessels.vessel_fittings import Drum, wrapped
 from cadplants.family import Part
 from cadplants.mesh_ops import Solid, extrude, merge, moved, revolve, sweep, weld
 from cadplants.modeling_style import ModelingStyle

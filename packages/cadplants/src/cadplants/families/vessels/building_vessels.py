@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from cadplants.families.vessels.vessel_fittings import Drum, head_height, sides
 from cadplants.families.vessels.vesselbuild import closed_vessel, tank_family
-from cadplants.families.vessels.vesselware import Drum, head_height, sides
 from cadplants.family import Family, Model, Part, Port, placed
 from cadplants.mesh_ops import Solid, merge, moved, sweep
 from cadplants.modeling_style import ModelingStyle
@@ -13,7 +13,7 @@ from cadplants.polygon import rounded_rectangle
 from cadplants.primitives import along, around, box, cylinder, dome, hexagon, ring, rope, turned
 from cadplants.transforms import at, spun
 
-__all__ = ["SMALLWARE"]
+__all__ = ["BUILDING_VESSELS"]
 
 _FRAME, _JOINT = "Structural element", "Connection assembly"
 
@@ -264,7 +264,7 @@ def _bottles(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     return Model(parts, kind="gas bottle")
 
 
-SMALLWARE: tuple[Family, ...] = (
+BUILDING_VESSELS: tuple[Family, ...] = (
     tank_family("tank/expansion on feet", _expansion_feet, 1.0),
     tank_family("tank/expansion on wall", _expansion_wall, 0.8),
     tank_family("tank/hydrophore", _hydrophore, 0.8),

@@ -13,7 +13,7 @@ from cadplants.primitives import along, ball, box, cylinder, hexagon, ring, rod,
 from cadplants.standards import PIPES, SIZES
 from cadplants.transforms import at, spun
 
-__all__ = ["SMALL_VALVES", "hex_end"]
+__all__ = ["THREADED", "hex_end"]
 
 
 def hex_end(dn: int, low: float, high: float, style: ModelingStyle, corners: int = 6) -> Solid:
@@ -336,7 +336,7 @@ def _family(
     return Family(name, place, "Valve assembly", "valve", build, sizes, weight=weight)  # type: ignore[arg-type]
 
 
-SMALL_VALVES: tuple[Family, ...] = (
+THREADED: tuple[Family, ...] = (
     _family("ball valve/threaded", _ball, weight=3),
     _family("ball valve/three-piece", _three_piece, weight=1.5),
     _family("gate valve/threaded", _gate, weight=1.5),

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from cadgraph.model.scene import Floats
-from cadplants.families.vessels.heatware import frame_of
+from cadplants.families.vessels.exchangers import frame_of
+from cadplants.families.vessels.vessel_fittings import head, head_height, lug, manway, mouth, sides
 from cadplants.families.vessels.vesselbuild import outlet, tank_family
 from cadplants.families.vessels.vesselfeet import bar, ladder
-from cadplants.families.vessels.vesselware import head, head_height, lug, manway, mouth, sides
 from cadplants.family import Family, Model, Part, Port, placed
 from cadplants.mesh_ops import Solid, extrude, merge, moved, weld
 from cadplants.mesh_ops import loft as skin
@@ -17,7 +17,7 @@ from cadplants.polygon import rounded_rectangle, section_angle, section_channel,
 from cadplants.primitives import along, box, cylinder, hexagon, lofted, ring, rod, rope, turned
 from cadplants.transforms import at, spun
 
-__all__ = ["BOXWARE"]
+__all__ = ["PLATE_TANKS"]
 
 _FRAME, _JOINT = "Structural element", "Connection assembly"
 _SQUARE = np.array([(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)])
@@ -377,7 +377,7 @@ def _buried(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     return Model(parts, kind="buried tank")
 
 
-BOXWARE: tuple[Family, ...] = (
+PLATE_TANKS: tuple[Family, ...] = (
     tank_family("tank/bucket hopper", _bucket, 0.9),
     tank_family("tank/braced plates", _braced, 0.9),
     tank_family("tank/sectional panels", _sectional),

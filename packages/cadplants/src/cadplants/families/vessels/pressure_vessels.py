@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from cadplants.families.vessels.vessel_fittings import Drum, head, head_height, lug, manway, mouth, sides, wrapped
 from cadplants.families.vessels.vesselbuild import closed_vessel, outlet, tank_family
 from cadplants.families.vessels.vesselfeet import bar, foot_plate, ladder, legs, saddle
-from cadplants.families.vessels.vesselware import Drum, head, head_height, lug, manway, mouth, sides, wrapped
 from cadplants.family import Family, Model, Part, Port, placed
 from cadplants.mesh_ops import merge, moved
 from cadplants.modeling_style import ModelingStyle
@@ -15,7 +15,7 @@ from cadplants.primitives import along, around, ball, box, cylinder, ring, rod, 
 from cadplants.transforms import at, spun
 
 __all__ = [
-    "PRESSWARE",
+    "PRESSURE_VESSELS",
     "agitator",
 ]
 
@@ -280,7 +280,7 @@ def _cryogenic(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     return Model(parts, kind="cryogenic tank")
 
 
-PRESSWARE: tuple[Family, ...] = (
+PRESSURE_VESSELS: tuple[Family, ...] = (
     tank_family("tank/stirred reactor", _reactor, 1.2),
     tank_family("tank/open mixer", _mixer),
     tank_family("tank/bullet", _bullet),

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from cadplants.families.vessels.heatware import equipment_family, equipment_mouth
-from cadplants.families.vessels.vesselware import sides
+from cadplants.families.vessels.exchangers import equipment_family, equipment_mouth
+from cadplants.families.vessels.vessel_fittings import sides
 from cadplants.family import Family, Model, Part, Port, placed
 from cadplants.mesh_ops import Solid, extrude, merge, moved
 from cadplants.modeling_style import ModelingStyle
@@ -13,7 +13,7 @@ from cadplants.polygon import rounded_rectangle
 from cadplants.primitives import along, around, box, cylinder, hexagon, lofted, ring, rod, rope, turned
 from cadplants.transforms import at, spun
 
-__all__ = ["WARMWARE", "wall_behind"]
+__all__ = ["RADIATORS", "wall_behind"]
 
 _FRAME, _JOINT, _PIPE = "Structural element", "Connection assembly", "Pipe assembly"
 _HEX, _RAD = "heat exchanger", "radiator"
@@ -353,7 +353,7 @@ def _cooling_tower(_: int, style: ModelingStyle, rng: np.random.Generator) -> Mo
     return Model(parts, ports=tuple(ports), kind="cooling tower")
 
 
-WARMWARE: tuple[Family, ...] = (
+RADIATORS: tuple[Family, ...] = (
     equipment_family("heat exchanger/duct coil", _duct_coil),
     equipment_family("heat exchanger/cooling tower", _cooling_tower),
     equipment_family("radiator/towel rail", _towel, 0.9),

@@ -6,9 +6,9 @@ import numpy as np
 
 from cadgraph.model.scene import Floats
 from cadplants.families.valves.valve import bolt_circle
+from cadplants.families.vessels.vessel_fittings import head, renamed, sides
 from cadplants.families.vessels.vesselbuild import outlet
 from cadplants.families.vessels.vesselfeet import saddle
-from cadplants.families.vessels.vesselware import head, renamed, sides
 from cadplants.family import Build, Family, Model, Part, Port, placed
 from cadplants.mesh_ops import Solid, extrude, merge, moved
 from cadplants.modeling_style import ModelingStyle
@@ -16,7 +16,7 @@ from cadplants.primitives import along, around, box, cylinder, hexagon, lofted, 
 from cadplants.standards import FLANGES, PIPES
 from cadplants.transforms import at, spun
 
-__all__ = ["HEATWARE", "equipment_family", "equipment_mouth", "feet_of", "frame_of"]
+__all__ = ["EXCHANGERS", "equipment_family", "equipment_mouth", "feet_of", "frame_of"]
 
 _NAME, _FRAME, _JOINT = "heat exchanger", "Structural element", "Connection assembly"
 
@@ -394,7 +394,7 @@ def _fin_fan(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     return Model(parts, ports=tuple(ports), kind="dry cooler")
 
 
-HEATWARE: tuple[Family, ...] = (
+EXCHANGERS: tuple[Family, ...] = (
     equipment_family("heat exchanger/kettle", _kettle),
     equipment_family("heat exchanger/u-tube", _u_tube),
     equipment_family("heat exchanger/double-pipe", _hairpin),

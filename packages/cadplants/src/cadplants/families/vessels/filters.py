@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from cadplants.families.valves.valve import bolt_circle
-from cadplants.families.vessels.heatware import equipment_family, equipment_mouth, feet_of
+from cadplants.families.vessels.exchangers import equipment_family, equipment_mouth, feet_of
+from cadplants.families.vessels.vessel_fittings import Drum, head, head_height, manway, mouth, renamed, sides
 from cadplants.families.vessels.vesselfeet import legs, skirt
-from cadplants.families.vessels.vesselware import Drum, head, head_height, manway, mouth, renamed, sides
 from cadplants.family import Family, Model, Part, Port, placed
 from cadplants.mesh_ops import Solid, merge, moved
 from cadplants.modeling_style import ModelingStyle
@@ -27,7 +27,7 @@ from cadplants.primitives import (
 from cadplants.standards import PIPES
 from cadplants.transforms import at, spun
 
-__all__ = ["FILTERWARE"]
+__all__ = ["FILTERS"]
 
 _NAME, _FRAME, _JOINT, _PIPE, _VALVE = (
     "filter",
@@ -361,7 +361,7 @@ def _backwash(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     return Model(parts, ports=tuple(ports), kind="disc filter")
 
 
-FILTERWARE: tuple[Family, ...] = (
+FILTERS: tuple[Family, ...] = (
     equipment_family("filter/swing lid", _swing_lid, 1.0),
     equipment_family("filter/multi-round", _multi_round, 1.0),
     equipment_family("filter/sand ball", _sand, 1.0),

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from cadplants.families.valves.valve import bolt_circle, flanged_body
-from cadplants.families.vessels.heatware import equipment_family, equipment_mouth, feet_of, frame_of
+from cadplants.families.vessels.exchangers import equipment_family, equipment_mouth, feet_of, frame_of
+from cadplants.families.vessels.vessel_fittings import Drum, head, head_height, manway, mouth, renamed, sides
 from cadplants.families.vessels.vesselfeet import legs, saddle, skirt
-from cadplants.families.vessels.vesselware import Drum, head, head_height, manway, mouth, renamed, sides
 from cadplants.family import Family, Model, Part, Port, placed
 from cadplants.flange import nut_room, plate_thickness
 from cadplants.mesh_ops import extrude, merge, moved
@@ -17,7 +17,7 @@ from cadplants.primitives import along, around, box, cylinder, dome, hexagon, lo
 from cadplants.standards import FLANGES, PIPES, SIZES
 from cadplants.transforms import at, spun
 
-__all__ = ["SEPARATEWARE"]
+__all__ = ["SEPARATORS"]
 
 _NAME, _FRAME, _JOINT = "separator", "Structural element", "Connection assembly"
 
@@ -418,7 +418,7 @@ def _line_family(name: str, build: object, least: int, most: int) -> Family:
     return Family(name, "inline", "Equipment", _NAME, build, some, weight=0.8)  # type: ignore[arg-type]
 
 
-SEPARATEWARE: tuple[Family, ...] = (
+SEPARATORS: tuple[Family, ...] = (
     equipment_family("separator/knock-out drum", _knock_out, 1.0),
     equipment_family("separator/three-phase", _three_phase, 1.0),
     equipment_family("separator/lamella", _plate_pack, 1.0),
