@@ -130,7 +130,7 @@ def analyse(
     config = config or Config()
     scene, from_scene = prepare_scene(scene)
     progress("measure", 0)
-    scene, properties, from_meshes = inspect_meshes(scene, measure(scene), config.inspect, progress, crew)
+    scene, properties, from_meshes = inspect_meshes(scene, measure(scene), config.inspect)
     ground = find_ground(scene, properties, config.ground)
     progress("contacts", 0)
     limit = max(config.cluster.eps, config.group.proximity)

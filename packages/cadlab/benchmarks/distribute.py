@@ -32,7 +32,7 @@ from cadgraph.distribute.crew import TileCrew
 from cadgraph.distribute.hands import Call, Hands
 from cadgraph.distribute.site import hands_for
 from cadgraph.geometry.kernels.parallel import use_threads
-from cadgraph.model.parts import Bools, Contacts
+from cadgraph.model.parts import Contacts
 from cadgraph.model.shapes import Facts
 from cadgraph.pipeline import analyse
 from cadgraph.session.demo import DEMO_SCENE
@@ -122,9 +122,6 @@ class Timed:
 
     def contacts(self, *given: Any) -> Contacts:
         return self._timed("contacts", lambda: self._crew.contacts(*given))
-
-    def visible(self, *given: Any) -> Bools:
-        return self._timed("visible", lambda: self._crew.visible(*given))
 
     def facts(self, *given: Any) -> Sequence[Facts]:
         return self._timed("shapes", lambda: self._crew.facts(*given))

@@ -17,10 +17,10 @@ from cadgraph.distribute.cut import cut_rows, cut_tiles, default_tiles, own_pair
 from cadgraph.distribute.hands import Call, Failure, Hands
 from cadgraph.distribute.packing import unpack_facts
 from cadgraph.distribute.store import digest_of, read_result, save_arrays, scene_arrays, write_result
-from cadgraph.distribute.tasks import find_contacts_of_tile, look_at_meshes, measure_range, result_of
+from cadgraph.distribute.tasks import find_contacts_of_tile, measure_range, result_of
 from cadgraph.errors import CadGraphError, FormatError
 from cadgraph.geometry.shape.analysis import CHUNK
-from cadgraph.model.parts import Bools, Contacts, Properties
+from cadgraph.model.parts import Contacts, Properties
 from cadgraph.model.scene import Floats, Ints, Scene
 from cadgraph.model.shapes import Facts
 
@@ -73,36 +73,16 @@ class TileCrew:
         order = np.lexsort((pairs[:, 1], pairs[:, 0]))
         return Contacts(np.ascontiguousarray(pairs[order]), distance[order], points[order])
 
-    def visible(self, scene: Scene, properties: Properties, progress: Progress = quiet) -> Bools:
-        """``(n_meshes,)`` whether each mesh can be seen from outside."""
-        # Each task sees the whole scene, so there are no more of them than hands.
-        ranges = cut_rows(np.ones(scene.n_meshes, np.int64), min(self._shares, self._count(scene.n_meshes)))
-        found = self._of_ranges("visible", look_at_meshes, scene, properties, ranges, _visible_in, progress)
-        return np.concatenate([np.zeros(0, np.bool_), *found])
-
-    def facts(self, scene: Scene, properties: Properties, progress: Progress = quiet) -> Sequence[Facts]:
+    def facts(self, scene: Scene, properties: Properties) -> Sequence[Facts]:
         """What is measured of each mesh of a scene that holds one for each shape."""
         ranges = cut_rows(np.diff(scene.face_offsets), self._count(scene.n_meshes), CHUNK)
-        found = self._of_ranges("shapes", measure_range, scene, properties, ranges, unpack_facts, progress)
-        return [facts for some in found for facts in some]
-
-    def _of_ranges(
-        self,
-        name: str,
-        task: Callable[..., None],
-        scene: Scene,
-        properties: Properties,
-        ranges: Sequence[tuple[int, int]],
-        read: Callable[[Found], Any],
-        progress: Progress,
-    ) -> list[Any]:
-        home, step = self._place(name, scene_arrays(scene, properties), tuple(ranges))
+        home, step = self._place("shapes", scene_arrays(scene, properties), tuple(ranges))
         calls = [(str(home), str(step), number, *ends) for number, ends in enumerate(ranges)]
-        found = self._all(task, step, calls, read, partial(progress, "measure") if name == "visible" else None)
+        found = self._all(measure_range, step, calls, unpack_facts, None)
         for (first, last), one in zip(ranges, found, strict=True):
             if len(one) != last - first:
                 raise FormatError(f"{step}: a result of another length; remove the folder, then build again")
-        return found
+        return [facts for some in found for facts in some]
 
     def _count(self, n_meshes: int) -> int:
         return self._tiles or default_tiles(n_meshes, self._shares)
@@ -169,10 +149,6 @@ def _contacts_in(arrays: Found) -> Found:
         if arrays[name].shape != shape:
             raise ValueError(name)
     return arrays
-
-
-def _visible_in(arrays: Found) -> Bools:
-    return np.asarray(arrays["visible"], np.bool_)
 
 
 _README = """What a cadgraph run with tiles keeps while it works: inputs and results of its tasks.

@@ -13,11 +13,10 @@ from cadgraph.distribute.store import open_arrays, open_scene, read_result, writ
 from cadgraph.errors import FormatError
 from cadgraph.geometry.contact.pairs import contacts_among
 from cadgraph.geometry.shape.analysis import measure_shapes
-from cadgraph.geometry.visibility.outside import find_visible
 from cadgraph.model.parts import Properties
 from cadgraph.model.scene import Ints, Scene
 
-__all__ = ["find_contacts_of_tile", "look_at_meshes", "measure_range", "result_of"]
+__all__ = ["find_contacts_of_tile", "measure_range", "result_of"]
 
 
 def result_of(folder: Path, number: int) -> Path:
@@ -47,25 +46,6 @@ def find_contacts_of_tile(scene_folder: str, folder: str, number: int, eps: floa
     found = contacts_among(part_of(scene, meshes), rows.reshape(-1, 2).astype(np.int64), eps)
     arrays = {"pairs": meshes[found.pairs], "distance": found.distance, "points": found.points}
     write_result(result_of(Path(folder), number), arrays)
-
-
-def look_at_meshes(scene_folder: str, folder: str, number: int, first: int, last: int) -> None:
-    """Finds out which of a range of meshes can be seen from outside; all others may stand in the way.
-
-    Args:
-        scene_folder: holds the arrays of the scene and what was measured of it.
-        folder: of this step.
-        number: of the task.
-        first: the first mesh to look at.
-        last: the one after the last.
-
-    Raises:
-        FormatError: an input is damaged.
-        OutputError: the result can't be written.
-    """
-    scene, _ = _measured(scene_folder)
-    seen = find_visible(scene, rows=(first, last))[first:last]
-    write_result(result_of(Path(folder), number), {"visible": seen})
 
 
 def measure_range(scene_folder: str, folder: str, number: int, first: int, last: int) -> None:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Protocol
 
 from cadgraph._io.progress import Progress, quiet
-from cadgraph.model.parts import Bools, Contacts, Properties
+from cadgraph.model.parts import Contacts, Properties
 from cadgraph.model.scene import Scene
 from cadgraph.model.shapes import Facts
 
@@ -20,10 +20,6 @@ class Crew(Protocol):
         """All pairs of meshes whose surfaces are at most ``limit`` apart [m]."""
         ...
 
-    def visible(self, scene: Scene, properties: Properties, progress: Progress = quiet) -> Bools:
-        """``(n_meshes,)`` whether each mesh can be seen from outside."""
-        ...
-
-    def facts(self, scene: Scene, properties: Properties, progress: Progress = quiet) -> Sequence[Facts]:
+    def facts(self, scene: Scene, properties: Properties) -> Sequence[Facts]:
         """What is measured of each mesh of a scene that holds one for each shape."""
         ...

@@ -8,20 +8,18 @@ from __future__ import annotations
 
 import numpy as np
 
-from cadgraph._io.progress import Progress, quiet
 from cadgraph.config import InspectConfig
 from cadgraph.geometry.mesh.duplicates import find_duplicates, findings
 from cadgraph.geometry.visibility.outside import find_visible
-from cadgraph.model.crew import Crew
 from cadgraph.model.diagnostic import Diagnostic
-from cadgraph.model.parts import Bools, Properties
+from cadgraph.model.parts import Properties
 from cadgraph.model.scene import Scene
 
 __all__ = ["inspect_meshes"]
 
 
 def inspect_meshes(
-    scene: Scene, properties: Properties, config: InspectConfig, progress: Progress = quiet, crew: Crew | None = None
+    scene: Scene, properties: Properties, config: InspectConfig
 ) -> tuple[Scene, Properties, tuple[Diagnostic, ...]]:
     """Looks for odd meshes.
 
@@ -29,15 +27,13 @@ def inspect_meshes(
         scene: all meshes.
         properties: of each.
         config: what to look for, and what to leave out.
-        progress: called with the share of what a crew has done.
-        crew: looks for what is hidden in place of this process.
 
     Returns:
         The scene and its properties without the meshes that are left out, and the findings; among these, one that
         names every mesh left out.
     """
     duplicates = find_duplicates(scene, properties) if config.duplicates else None
-    visible = _visible(scene, properties, progress, crew) if config.hidden else None
+    visible = find_visible(scene) if config.hidden else None
     diagnostics = list(findings(scene, properties, duplicates, visible))
     out = np.zeros(scene.n_meshes, np.bool_)
     if "duplicate" in config.exclude and duplicates is not None:
@@ -51,7 +47,3 @@ def inspect_meshes(
     diagnostics.append(Diagnostic("excluded", message, paths))
     keep = np.flatnonzero(~out)
     return scene.select(keep), properties.select(keep), tuple(diagnostics)
-
-
-def _visible(scene: Scene, properties: Properties, progress: Progress, crew: Crew | None) -> Bools:
-    return find_visible(scene) if crew is None else crew.visible(scene, properties, progress)

@@ -23,7 +23,6 @@ def find_visible(
     n_points: int = 64,
     n_directions: int = 64,
     *,
-    rows: tuple[int, int] | None = None,
     forest: Forest | None = None,
     workers: int | None = None,
 ) -> Bools:
@@ -37,17 +36,16 @@ def find_visible(
         scene: any.
         n_points: sample points of each mesh, spread evenly over its area.
         n_directions: rays from each, spread evenly over the sphere.
-        rows: look at the meshes from the first up to the second only, amid all others; None: at all of them.
         forest: the trees of this scene, if built before.
         workers: threads; all processors by default. The outcome does not depend on it.
 
     Returns:
-        ``(n_meshes,)``; meshes without area are not visible, nor are those that were not looked at.
+        ``(n_meshes,)``; meshes without area are not visible.
 
     Raises:
         ValueError: ``n_points``, ``n_directions`` or ``workers`` is below 1.
     """
-    return visible_share(scene, n_points, n_directions, True, rows=rows, forest=forest, workers=workers) > 0
+    return visible_share(scene, n_points, n_directions, True, forest=forest, workers=workers) > 0
 
 
 def visible_share(
@@ -56,7 +54,6 @@ def visible_share(
     n_directions: int = 64,
     first_only: bool = False,
     *,
-    rows: tuple[int, int] | None = None,
     forest: Forest | None = None,
     workers: int | None = None,
 ) -> Floats:
@@ -67,12 +64,11 @@ def visible_share(
         n_points: sample points of each mesh, spread evenly over its area.
         n_directions: rays from each, spread evenly over the sphere.
         first_only: stop for a mesh at its first visible point; the share is then only known to be above 0.
-        rows: look at the meshes from the first up to the second only, amid all others; None: at all of them.
         forest: the trees of this scene, if built before.
         workers: threads; all processors by default. The outcome does not depend on it.
 
     Returns:
-        ``(n_meshes,)`` 0..1; 0 for meshes without area, and for those that were not looked at.
+        ``(n_meshes,)`` 0..1; 0 for meshes without area.
 
     Raises:
         ValueError: ``n_points``, ``n_directions`` or ``workers`` is below 1.
@@ -87,12 +83,11 @@ def visible_share(
     tops, meshes = box_trees(trees.boxes), plain(trees)
     size = float((trees.boxes[known, 1].max(axis=0) - trees.boxes[known, 0].min(axis=0)).max())
     directions = _directions(n_directions)
-    start, stop = (0, scene.n_meshes) if rows is None else rows
 
     def look(first: int, last: int) -> None:
-        count_seen(meshes, tops, start + first, start + last, n_points, directions, _OFF * size, first_only, seen)
+        count_seen(meshes, tops, first, last, n_points, directions, _OFF * size, first_only, seen)
 
-    for_ranges(look, trees.counts[start:stop], workers)
+    for_ranges(look, trees.counts, workers)
     return seen / n_points
 
 
