@@ -27,6 +27,15 @@ def shell_volumes(solid):
     return np.bincount(np.unique(shell[faces[:, 0]], return_inverse=True)[1], parts)
 
 
+def shells(solid):
+    """The corners of each connected shell, ``(n, 3)``."""
+    faces = solid.faces.astype(np.int64)
+    n = len(solid.vertices)
+    links = coo_matrix((np.ones(len(faces) * 2), (faces[:, [0, 1]].ravel(), faces[:, [1, 2]].ravel())), shape=(n, n))
+    shell = connected_components(links, directed=False)[1]
+    return [np.asarray(solid.vertices)[shell == one] for one in np.unique(shell[faces[:, 0]])]
+
+
 def least_edge(solid):
     """The shortest edge [m]."""
     tri = solid.vertices[solid.faces]

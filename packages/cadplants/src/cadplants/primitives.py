@@ -50,9 +50,19 @@ def along(axis: str, solid: Solid, x: float = 0.0, y: float = 0.0, z: float = 0.
     return moved(solid, at(x, y, z) @ AXES[axis])
 
 
-def turned(profile: Sequence[tuple[float, float]], sides: int, phase: float = 0.0) -> Solid:
-    """A solid of revolution about z; its outline ``(radius, height)`` goes up its outside [m]."""
+def turned(profile: Sequence[tuple[float, float]], sides: int, phase: float = 0.0, bore: float = 0.0) -> Solid:
+    """A solid of revolution about z; its outline ``(radius, height)`` goes up its outside [m].
+
+    Args:
+        profile: the outline.
+        sides: corners of a ring.
+        phase: angle of the first corner [rad].
+        bore: radius of a round hole right through, 0 for none [m].
+    """
     points = list(profile)
+    if bore > 0:
+        inside = [(bore, points[-1][1]), (bore, points[0][1])]
+        return weld([revolve([*points, *inside], sides, closed=True, phase=phase)])
     if points[0][0] > 0:
         points.insert(0, (0.0, points[0][1]))
     if points[-1][0] > 0:

@@ -12,9 +12,10 @@ from cadplants.family import Family, Model, Part, Port, placed
 from cadplants.mesh_ops import Solid, extrude, merge, moved
 from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import rounded_rectangle
-from cadplants.primitives import along, around, box, cylinder, hexagon, turned
+from cadplants.primitives import along, around, box, cylinder, hexagon, ring, turned
 from cadplants.standards import FLANGES, PIPES, SIZES
 from cadplants.transforms import at, looking, spun
+from cadplants.valve_body import bore_of
 
 __all__ = ["COUNTER_BUILDS"]
 
@@ -73,9 +74,9 @@ def _paddle(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     length, n = round(0.09 + 4.2 * radius, 6), style.round(radius)
     r, rise = 0.014 + 0.25 * radius, 1.3 * radius + float(rng.uniform(0.03, 0.06))
     ends = [
-        cylinder(1.3 * radius, 0.0, 0.28 * length, n),
-        cylinder(1.15 * radius, 0.25 * length, 0.75 * length, n),
-        cylinder(1.3 * radius, 0.72 * length, length, n),
+        ring(bore_of(dn, style), 1.3 * radius, 0.0, 0.28 * length, n),
+        ring(bore_of(dn, style), 1.15 * radius, 0.25 * length, 0.75 * length, n),
+        ring(bore_of(dn, style), 1.3 * radius, 0.72 * length, length, n),
     ]
     neck = moved(cylinder(1.1 * r, 0.5 * radius, rise, 16), at(length / 2))
     nut = merge(
@@ -177,8 +178,8 @@ def _rotary(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     ]
     core = along("-y", merge([*lobes, *(ribs if rng.random() < 0.6 else []), *ends]), x)
     plates = [
-        along("x", disc_flange(dn, style, 0.5 * length)),
-        moved(along("-x", disc_flange(dn, style, 0.5 * length)), at(length)),
+        along("x", disc_flange(dn, style, 0.5 * length, bore_of(dn, style))),
+        moved(along("-x", disc_flange(dn, style, 0.5 * length, bore_of(dn, style))), at(length)),
     ]
     parts = [piece([*plates, core], _NAME, "gauge")]
     counter = [

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -21,14 +21,16 @@ from cadplants.transforms import at, spun
 __all__ = ["FLOW_BUILDS", "measuring_tube", "meter_family"]
 
 _NAME = "flow meter"
-Outline = list[tuple[float, float]]
+Outline = Sequence[tuple[float, float]]
 
 
-def measuring_tube(dn: int, style: ModelingStyle, length: float, middle: Outline | None = None) -> Solid:
-    """A measuring tube between flanges; its middle as wide as a pipe unless given [m]."""
+def measuring_tube(
+    dn: int, style: ModelingStyle, length: float, middle: Outline | None = None, throat: Outline = ()
+) -> Solid:
+    """A measuring tube between flanges; its middle as wide as a pipe and its bore straight unless given [m]."""
     r = 1.02 * PIPES[dn].radius
     low = plate_thickness(dn) + min(0.7 * nut_room(dn), 0.15 * length)
-    return flanged_body(dn, style, length, middle or [(r, low), (r, length - low)])
+    return flanged_body(dn, style, length, middle or [(r, low), (r, length - low)], throat)
 
 
 def _electronics(
@@ -176,12 +178,10 @@ def _venturi(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     r = 1.02 * radius
     middle = [(r, low), (r, a), (1.1 * throat, b), (1.1 * throat, c), (r, length - low)]
     # Its bore narrows with it, so that a straight one would break through.
+    bore, neck = PIPES[dn].bore, 0.85 * throat
+    narrow = [(bore, a), (neck, b), (neck, c), (bore, length - low)]
     parts = [
-        piece(
-            measuring_tube(dn, replace(style, hollow=False), length, [(float(p), float(q)) for p, q in middle]),
-            _NAME,
-            "gauge",
-        )
+        piece(measuring_tube(dn, style, length, [(float(p), float(q)) for p, q in middle], narrow), _NAME, "gauge")
     ]
     mid = (b + c) / 2
     chambers = [(0.5 * (low + a), r), (mid, 1.1 * throat)]

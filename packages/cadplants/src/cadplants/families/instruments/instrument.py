@@ -16,6 +16,7 @@ from cadplants.polygon import circle, rounded_rectangle
 from cadplants.primitives import along, around, box, cylinder, hexagon, ring, rod, rope, turned
 from cadplants.standards import FLANGES, PIPES, SIZES
 from cadplants.transforms import arc, at, spun
+from cadplants.valve_body import bore_of
 
 __all__ = ["INSTRUMENTS"]
 
@@ -478,8 +479,8 @@ def _rotameter(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model
     radius, n = PIPES[dn].radius, style.round(PIPES[dn].radius)
     length, low = 0.25 + 2 * radius, plate_thickness(dn)
     plates = [
-        along("x", disc_flange(dn, style, low + 0.03)),
-        moved(along("-x", disc_flange(dn, style, low + 0.03)), at(length)),
+        along("x", disc_flange(dn, style, low + 0.03, bore_of(dn, style))),
+        moved(along("-x", disc_flange(dn, style, low + 0.03, bore_of(dn, style))), at(length)),
     ]
     parts = [Part(solid, "flow meter", "gauge", "flow meter") for solid in plates]
     if rng.random() < 0.5:
@@ -553,8 +554,8 @@ def _sight_glass(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Mod
     length, low = 0.1 + 3 * radius, plate_thickness(dn)
     plates = merge(
         [
-            along("x", disc_flange(dn, style, low + 0.004)),
-            moved(along("-x", disc_flange(dn, style, low + 0.004)), at(length)),
+            along("x", disc_flange(dn, style, low + 0.004, bore_of(dn, style))),
+            moved(along("-x", disc_flange(dn, style, low + 0.004, bore_of(dn, style))), at(length)),
         ]
     )
     pane = along("x", ring(radius, 1.2 * radius, low, length - low, n))

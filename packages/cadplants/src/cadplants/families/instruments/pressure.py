@@ -26,6 +26,7 @@ from cadplants.polygon import rounded_rectangle
 from cadplants.primitives import along, around, box, cylinder, dome, hexagon, ring, rod, rope, turned
 from cadplants.standards import FLANGES, PIPES, SIZES
 from cadplants.transforms import at, spun
+from cadplants.valve_body import bore_of
 
 __all__ = ["PRESSURE_BUILDS", "differential_cell"]
 
@@ -375,7 +376,7 @@ def _moisture(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     length, r = round(0.09 + 3 * radius, 6), 0.012 + 0.75 * radius
     n, x = style.round(r), length / 2
     body = [
-        along("x", cylinder(1.12 * radius, 0.0, length, style.round(radius))),
+        along("x", ring(bore_of(dn, style), 1.12 * radius, 0.0, length, style.round(radius))),
         moved(cylinder(r, -1.1 * radius, 1.15 * radius + 0.012, n), at(x)),
     ]
     top = 1.15 * radius + 0.012

@@ -13,6 +13,7 @@ from cadplants.modeling_style import ModelingStyle
 from cadplants.primitives import along, around, box, cylinder, dome, hexagon, ring, rod, turned
 from cadplants.standards import FLANGES, PIPES, SIZES
 from cadplants.transforms import at, spun
+from cadplants.valve_body import bore_of
 
 __all__ = ["SIGHT_BUILDS"]
 
@@ -25,8 +26,9 @@ def _hygienic(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     length, end = round(0.13 + float(rng.uniform(2.5, 5)) * radius, 6), 0.035
     r, n = 1.15 * radius, style.round(radius)
     lip = 1.25 * radius + 0.008
-    stub = turned([(radius, 0.0), (radius, end - 0.008), (lip, end - 0.003), (lip, end)], n)
-    cap = turned([(lip, end), (lip, end + 0.003), (1.1 * r, end + 0.01), (1.1 * r, end + 0.02)], n)
+    bore = bore_of(dn, style)
+    stub = turned([(radius, 0.0), (radius, end - 0.008), (lip, end - 0.003), (lip, end)], n, bore=bore)
+    cap = turned([(lip, end), (lip, end + 0.003), (1.1 * r, end + 0.01), (1.1 * r, end + 0.02)], n, bore=bore)
     band = [
         ring(0.95 * lip, lip + 0.006, end - 0.007, end + 0.008, n),
         box((0.022, 0.03, 0.013), (lip + 0.012, 0, end)),
@@ -52,8 +54,8 @@ def _cage(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     length, low = round(0.14 + float(rng.uniform(2.5, 4.5)) * radius, 6), plate_thickness(dn)
     n, r = style.round(1.2 * radius), 1.2 * radius + 0.004
     plates = [
-        along("x", disc_flange(dn, style, low + 0.012)),
-        moved(along("-x", disc_flange(dn, style, low + 0.012)), at(length)),
+        along("x", disc_flange(dn, style, low + 0.012, bore_of(dn, style))),
+        moved(along("-x", disc_flange(dn, style, low + 0.012, bore_of(dn, style))), at(length)),
     ]
     outer = min(1.25 * r + 0.006, size.circle / 2 - 0.6 * size.hole)
     count, wide = int(rng.choice([2, 3, 4])), float(rng.uniform(0.4, 0.9)) * r

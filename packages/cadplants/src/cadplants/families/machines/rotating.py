@@ -14,6 +14,7 @@ from cadplants.polygon import rounded_rectangle, section_channel
 from cadplants.primitives import along, around, ball, box, cylinder, dome, hexagon, ring, rod, rope, torus, turned
 from cadplants.standards import FLANGES, PIPES, smaller
 from cadplants.transforms import at, looking, spun
+from cadplants.valve_body import bore_of
 
 __all__ = ["ROTATING", "motor_parts"]
 
@@ -264,6 +265,7 @@ def _circulator(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Mode
                 (1.5 * radius, length),
             ],
             n,
+            bore=bore_of(dn, style),
         ),
     )
     volute = along("y", turned([(0.8 * r, -0.5 * r), (r, -0.3 * r), (r, 0.35 * r)], n), x)

@@ -50,13 +50,13 @@ def _block(name: str, turns: Sequence[float]) -> Build:
         for turn in (np.pi, 0.0, *turns):
             way = at(reach) @ spun("y", -turn)
             if kind == 0:
-                body.append(moved(lathe([(1.08 * r, half - 0.001), (1.08 * r, reach - 0.3 * out)], n), way))
+                body.append(moved(lathe([(1.08 * r, half - 0.001), (1.08 * r, reach - 0.3 * out)], n, bored), way))
                 nut = prism(2.55 * r + 0.006, 6, half + 0.25 * out, reach, bored, n)
                 nuts.append(Part(moved(nut, way), "nut", "trim", "", BOLTED))
             elif kind == 1:
                 body.append(moved(prism(1.9 * half, 8, half - 0.001, reach, bored, n), way))
             else:
-                body.append(moved(lathe([(1.2 * r, half - 0.001), (1.15 * r, reach)], n), way))
+                body.append(moved(lathe([(1.2 * r, half - 0.001), (1.15 * r, reach)], n, bored), way))
             if turn in turns:
                 rest += tail(dn, style, rng, way @ at(reach), "oc")
         return Model([Part(merge(body), name, "trim"), *nuts, *rest], round(2 * reach, 9), "welded")

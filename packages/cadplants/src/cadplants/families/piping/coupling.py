@@ -120,15 +120,15 @@ def _cam(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A cam and groove coupling (EN 14420-7): an adapter in a coupler with two cam levers and finger rings."""
     r, n = PIPES[dn].radius, style.round(1.4 * PIPES[dn].radius)
     end, cup, male = 0.9 * r + 0.012, 1.1 * r + 0.02, 0.7 * r + 0.012
-    length = 2 * end + cup + male
+    length, bore = 2 * end + cup + male, bore_of(dn, style)
     design = int(rng.integers(2))
     grip = (
-        prism(2.7 * r + 0.004, int(rng.choice([6, 8])), 0.0, end)
+        prism(2.7 * r + 0.004, int(rng.choice([6, 8])), 0.0, end, bore, n)
         if design
-        else lathe([(1.2 * r, 0.0), (1.25 * r, end)], n)
+        else lathe([(1.2 * r, 0.0), (1.25 * r, end)], n, bore)
     )
     outer = 1.45 * r + 0.006
-    coupler = merge([grip, lathe([(1.2 * r, 0.9 * end), (outer, end), (outer, end + cup)], n)])
+    coupler = merge([grip, lathe([(1.2 * r, 0.9 * end), (outer, end), (outer, end + cup)], n, bore)])
     x = end + 0.65 * cup
     ears = []
     levers = []
@@ -152,7 +152,7 @@ def _cam(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
         levers.append(moved(lever, at(x, s * (outer + 0.2 * r)) @ flip @ spun("z", -a)))
     adapter = [(1.15 * r, end + cup - 0.2 * r), (1.15 * r, length - end), (1.3 * r, length - end), (1.3 * r, length)]
     roll = spun("x", pick(rng, 0.0, 0.5) * np.pi)
-    parts = [_own(merge([coupler, *ears])), _own(lathe(adapter, n))]
+    parts = [_own(merge([coupler, *ears])), _own(lathe(adapter, n, bore))]
     parts += [Part(one, "lever", "handle", _ME, "Valve assembly") for one in levers]
     parts = [Part(moved(p.solid, roll), p.name, p.color, p.bundle, p.group, p.fine) for p in parts]
     return Model(parts, round(length, 9), "welded")
@@ -187,10 +187,13 @@ def _quick(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A quick coupling (ISO 7241): a plug in a socket with a sliding knurled sleeve, hexagons at both ends."""
     r, n = PIPES[dn].radius, style.round(1.5 * PIPES[dn].radius)
     hexa, body = 0.8 * r + 0.01, float(rng.uniform(2.2, 3.2)) * r + 0.02
-    length = 2 * hexa + body + 0.6 * r
+    length, bore = 2 * hexa + body + 0.6 * r, bore_of(dn, style)
     split = hexa + 0.72 * body
     socket = merge(
-        [prism(2.5 * r + 0.005, 6, 0.0, hexa), lathe([(1.3 * r, 0.9 * hexa), (1.45 * r, hexa), (1.45 * r, split)], n)]
+        [
+            prism(2.5 * r + 0.005, 6, 0.0, hexa, bore, n),
+            lathe([(1.3 * r, 0.9 * hexa), (1.45 * r, hexa), (1.45 * r, split)], n, bore),
+        ]
     )
     long = float(rng.uniform(0.3, 0.5)) * body
     if rng.random() < 0.5:
@@ -212,7 +215,7 @@ def _quick(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
         (1.35 * r, split + 0.5 * r),
         (1.35 * r, length - hexa),
     ]
-    male = merge([lathe(plug, n), prism(2.5 * r + 0.005, 6, length - hexa, length)])
+    male = merge([lathe(plug, n, bore), prism(2.5 * r + 0.005, 6, length - hexa, length, bore, n)])
     return Model([_own(socket), _own(sleeve), _own(male)], round(length, 9), "welded")
 
 

@@ -15,6 +15,7 @@ from cadplants.mesh_ops import (
     about_x,
     branched,
     extrude,
+    loft,
     merge,
     moved,
     revolve,
@@ -23,7 +24,7 @@ from cadplants.mesh_ops import (
 )
 from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle
-from cadplants.primitives import along, around, box, cylinder, hexagon, ring, torus, turned, waves
+from cadplants.primitives import along, around, box, cylinder, hexagon, lofted, ring, torus, turned, waves
 from cadplants.standards import FACE_TO_FACE, FLANGES, PIPES, REDUCER_LENGTH, SIZES, TEE_CENTER_TO_END
 from cadplants.transforms import at, spun
 from cadplants.valve_body import bore_of
@@ -280,8 +281,15 @@ def _cross(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
             n,
             [Branch(reach, a, 0.9 * size.radius, out) for a in (np.pi / 2, 3 * np.pi / 2)],
         )
-        ends = [revolve([(0.0, 0.0), (size.radius, 0.0)], n), revolve([(size.radius, 2 * reach), (0.0, 2 * reach)], n)]
-        return _single(about_x(weld([shell, *ends])), "cross", 2 * reach)
+        bore = bore_of(dn, style)
+        if bore:
+            inside = [revolve([(size.radius, 2 * reach), (bore, 2 * reach), (bore, 0.0), (size.radius, 0.0)], n)]
+        else:
+            inside = [
+                revolve([(0.0, 0.0), (size.radius, 0.0)], n),
+                revolve([(size.radius, 2 * reach), (0.0, 2 * reach)], n),
+            ]
+        return _single(about_x(weld([shell, *inside])), "cross", 2 * reach)
     side = along("z", cylinder(foot, -reach, reach, n), reach)
     return _single(merge([along("x", cylinder(size.radius, 0, 2 * reach, n)), side]), "cross", 2 * reach)
 
@@ -336,11 +344,11 @@ def _eccentric(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model
     stations += [(length + 0.06 + (1 - s) * length, e) for s, e in list(zip(shares, ease, strict=True))[::-1]]
     path = np.array([[x, 0.0, down * e] for x, e in stations])
     radii = [first.radius + (last.radius - first.radius) * e for _, e in stations]
+    bores = [bore_of(dn, style) + (bore_of(other, style) - bore_of(dn, style)) * e for _, e in stations]
     half = len(stations) // 2
     pieces = [
-        _loft_rounds(path[:half], radii[:half], n),
-        _loft_rounds(path[half - 1 : half + 1], radii[half - 1 : half + 1], n),
-        _loft_rounds(path[half:], radii[half:], n),
+        _loft_rounds(path[cut], radii[cut], bores[cut], n)
+        for cut in (slice(half), slice(half - 1, half + 1), slice(half, None))
     ]
     names = ("reducer", "pipe", "reducer")
     return Model(
@@ -350,16 +358,17 @@ def _eccentric(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model
     )
 
 
-def _loft_rounds(path: Floats, radii: list[float], sides: int) -> Solid:
-    from cadplants.primitives import lofted
+def _loft_rounds(path: Floats, radii: list[float], bores: list[float], sides: int) -> Solid:
+    """Rounds on a path joined to a skin, hollow where there are bores [m]."""
+    outline = circle(1.0, sides)
 
-    ring_ = circle(1.0, sides)
-    return lofted(
-        [
-            np.column_stack([np.full(sides, p[0]), p[1] + r * ring_[:, 0], p[2] + r * ring_[:, 1]])
-            for p, r in zip(path, radii, strict=True)
+    def skin(sizes: list[float]) -> list[Floats]:
+        return [
+            np.column_stack([np.full(sides, p[0]), p[1] + r * outline[:, 0], p[2] + r * outline[:, 1]])
+            for p, r in zip(path, sizes, strict=True)
         ]
-    )
+
+    return weld([loft([*skin(radii), *skin(bores)[::-1]], closed=True)]) if min(bores) > 0 else lofted(skin(radii))
 
 
 def _swage(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
@@ -367,13 +376,17 @@ def _swage(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     other = int(rng.choice([size for size in SIZES if size < dn][-3:]))
     a, b, n = PIPES[dn].radius, PIPES[other].radius, style.round(PIPES[dn].radius)
     length = REDUCER_LENGTH[dn]
-    cone = turned([(a, 0.0), (a, 0.15 * length), (b, 0.85 * length), (b, length)], n)
+    places = (0.0, 0.15 * length, 0.85 * length, length)
+    skin = list(zip((a, a, b, b), places, strict=True))
+    wide, thin = bore_of(dn, style), bore_of(other, style)
+    inside = list(zip((wide, wide, thin, thin), places, strict=True))[::-1] if thin else []
+    cone = weld([revolve([*skin, *inside], n, closed=True)]) if inside else turned(skin, n)
     whole = 2 * length + 0.08
     back = moved(along("-x", cone), at(whole))
     return Model(
         [
             Part(along("x", cone), "reducer", "pipe"),
-            Part(along("x", cylinder(b, length, length + 0.08, n)), "pipe", "pipe"),
+            Part(along("x", ring(thin, b, length, length + 0.08, n)), "pipe", "pipe"),
             Part(back, "reducer", "pipe"),
         ],
         whole,

@@ -15,6 +15,7 @@ from cadplants.polygon import circle
 from cadplants.primitives import box, lofted, rod, rope, torus
 from cadplants.standards import PIPES, SIZES
 from cadplants.transforms import at, spun
+from cadplants.valve_body import bore_of
 
 __all__ = ["HOSES"]
 
@@ -44,22 +45,23 @@ def _skin(count: int, r: float, kind: int) -> Floats:
 def _ferrule(dn: int, style: ModelingStyle, rng: np.random.Generator, design: int) -> tuple[list[Part], float]:
     """What a hose is held by from x = 0: a flange on a neck, a hexagon with a sleeve, or a cam lever half."""
     r, n = PIPES[dn].radius, style.round(1.3 * PIPES[dn].radius)
-    sleeve = 1.2 * r + 0.02
+    sleeve, bore = 1.2 * r + 0.02, bore_of(dn, style)
     if design == 0:
         neck = flange_length(dn, style)
         parts = parts_of(flange(dn, style))
-        parts.append(Part(lathe([(1.22 * r, neck), (1.22 * r, neck + sleeve)], n), "coupling", "trim"))
+        parts.append(Part(lathe([(1.22 * r, neck), (1.22 * r, neck + sleeve)], n, bore), "coupling", "trim"))
         return parts, neck + 0.5 * sleeve
     if design == 1:
         hexa = 0.7 * r + 0.01
-        one = merge([prism(2.6 * r + 0.005, 6, 0.0, hexa), lathe([(1.05 * r, 0.9 * hexa), (1.05 * r, 1.4 * hexa)], n)])
+        nut = prism(2.6 * r + 0.005, 6, 0.0, hexa, bore, n)
+        one = merge([nut, lathe([(1.05 * r, 0.9 * hexa), (1.05 * r, 1.4 * hexa)], n, bore)])
         ring_ = [(1.3 * r, 1.3 * hexa), (1.3 * r, 1.3 * hexa + 0.3 * sleeve), (1.22 * r, 1.3 * hexa + 0.3 * sleeve)]
         return [
             Part(one, "union", "trim"),
-            Part(lathe([*ring_, (1.22 * r, 1.3 * hexa + sleeve)], n), "coupling", "trim"),
+            Part(lathe([*ring_, (1.22 * r, 1.3 * hexa + sleeve)], n, bore), "coupling", "trim"),
         ], 1.3 * hexa + 0.5 * sleeve
     cup = 1.1 * r + 0.02
-    cups = [lathe([(1.5 * r, 0.0), (1.5 * r, cup), (1.22 * r, cup + 0.2 * r), (1.22 * r, cup + sleeve)], n)]
+    cups = [lathe([(1.5 * r, 0.0), (1.5 * r, cup), (1.22 * r, cup + 0.2 * r), (1.22 * r, cup + sleeve)], n, bore)]
     arms = merge([box((1.5 * cup, 0.15 * r + 0.002, 0.5 * r), (cup, s * 1.6 * r, 0)) for s in (-1, 1)])
     return [
         Part(merge(cups), "coupling", "trim"),

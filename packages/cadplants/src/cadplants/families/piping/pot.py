@@ -10,7 +10,6 @@ from cadplants.families.piping.shape import (
     bolting,
     family,
     lathe,
-    lathe_z,
     mouth,
     necks,
     prism,
@@ -20,7 +19,7 @@ from cadplants.family import Family, Model, Part
 from cadplants.flange import plate_thickness
 from cadplants.mesh_ops import Solid, merge, moved
 from cadplants.modeling_style import ModelingStyle
-from cadplants.primitives import around, box, cylinder, dome, hexagon, rod, torus
+from cadplants.primitives import around, box, cylinder, dome, hexagon, rod, torus, turned
 from cadplants.standards import FLANGES, PIPES, SIZES
 from cadplants.transforms import at, spun
 
@@ -42,7 +41,7 @@ def _tee_type(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     x, high = 0.5 * length, max(0.5 * size.outer, wide) + swell_room(dn) + 0.02
     plate, collar = plate_thickness(dn), max(0.5 * size.outer, 1.35 * wide + 0.015)
     low = -float(rng.uniform(1.0, 1.6)) * wide
-    pot = lathe_z(
+    pot = turned(
         [(0.5 * wide, low - 0.3 * wide), (wide, low), (wide, high - plate), (collar, high - plate), (collar, high)], n
     )
     parts = [_own(merge([*necks(dn, style, length), moved(pot, at(x))]))]
@@ -74,9 +73,9 @@ def _quick_basket(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Mo
     shell = [(0.3 * pot, low - 0.3 * pot), (0.8 * pot, low - 0.18 * pot), (pot, low), (pot, high - thick)]
     shell += [(1.22 * pot, high - thick), (1.22 * pot, high)]
     out = mouth("flanged", dn, style, 0.4 * pot, 0.5 * length)
-    body = [moved(lathe_z(shell, n), at(x)), moved(out, at(x)), moved(out, at(x) @ spun("z", np.pi))]
+    body = [moved(turned(shell, n), at(x)), moved(out, at(x)), moved(out, at(x) @ spun("z", np.pi))]
     parts = [_own(merge(body), "tank")]
-    lid = [lathe_z([(1.22 * pot, high), (1.22 * pot, high + thick)], n)]
+    lid = [turned([(1.22 * pot, high), (1.22 * pot, high + thick)], n)]
     if rng.random() < 0.5:
         lid.append(dome(0.85 * pot, 0.3 * pot, high + 0.9 * thick, n))
     parts.append(_own(moved(merge(lid), at(x)), "tank"))
@@ -138,8 +137,8 @@ def _duplex(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
             (1.2 * pot, high),
         ]
         where = at(x, side * gap)
-        parts.append(_own(moved(lathe_z(shell, n), where)))
-        lid = [lathe_z([(1.2 * pot, high), (1.2 * pot, high + 0.14 * pot), (0.4 * pot, high + 0.3 * pot)], n)]
+        parts.append(_own(moved(turned(shell, n), where)))
+        lid = [turned([(1.2 * pot, high), (1.2 * pot, high + 0.14 * pot), (0.4 * pot, high + 0.3 * pot)], n)]
         bar = rod((-0.6 * pot, 0, high + 0.75 * pot), (0.6 * pot, 0, high + 0.75 * pot), 0.06 * pot, 8)
         lid += [cylinder(0.1 * pot, high + 0.2 * pot, high + 0.8 * pot, 8), bar]
         parts.append(_own(moved(merge(lid), where)))
@@ -175,9 +174,9 @@ def _separator(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model
     a = np.linspace(0, np.pi / 2, 6)
     bottom = [(max(0.05, np.sin(t)) * pot, -deep - 0.5 * pot * np.cos(t)) for t in a]
     top = [(max(0.05, np.cos(t)) * pot, tall + 0.5 * pot * np.sin(t)) for t in a]
-    parts = [_own(merge([*necks(dn, style, length), moved(lathe_z([*bottom, *top], n), at(x))]), "tank")]
+    parts = [_own(merge([*necks(dn, style, length), moved(turned([*bottom, *top], n), at(x))]), "tank")]
     if rng.random() < 0.5:
-        collar = [lathe_z([(1.25 * pot, -deep * 0.6), (1.25 * pot, -deep * 0.6 + 0.03)], n)]
+        collar = [turned([(1.25 * pot, -deep * 0.6), (1.25 * pot, -deep * 0.6 + 0.03)], n)]
         parts[0] = _own(merge([parts[0].solid, moved(collar[0], at(x))]), "tank")
         way = at(x, 0, -deep * 0.6 + 0.015) @ _UP
         parts += bolting(12, 1.17 * pot, 0.012, -0.015, 0.015, style, _ME, way)
@@ -207,7 +206,7 @@ def _self_cleaning(dn: int, style: ModelingStyle, rng: np.random.Generator) -> M
     cone = 0.7 * pot
     shell = [(0.25 * pot, low - cone - 0.08), (0.25 * pot, low - cone), (pot, low), (pot, high - plate)]
     shell += [(1.2 * pot, high - plate), (1.2 * pot, high)]
-    parts = [_own(merge([*necks(dn, style, length), moved(lathe_z(shell, n), at(x))]), "tank")]
+    parts = [_own(merge([*necks(dn, style, length), moved(turned(shell, n), at(x))]), "tank")]
     way = at(x, 0, high) @ _UP
     lid = lathe([(1.2 * pot, 0.0), (1.2 * pot, plate), (0.4 * pot, 1.4 * plate)], n)
     parts.append(_own(moved(lid, way), "tank"))

@@ -9,7 +9,7 @@ import numpy as np
 from cadgraph.model.scene import Floats
 from cadplants.family import Build, Family, Part, placed
 from cadplants.flange import bolts, flange, flange_length, gasket, nut_room, plate_thickness
-from cadplants.mesh_ops import Solid, about_x, extrude, loft, merge, moved, revolve, weld
+from cadplants.mesh_ops import Solid, about_x, extrude, loft, merge, moved, weld
 from cadplants.modeling_style import ModelingStyle
 from cadplants.piping import cap
 from cadplants.plant import Assembly
@@ -34,7 +34,6 @@ __all__ = [
     "joint",
     "knurled",
     "lathe",
-    "lathe_z",
     "mirrored",
     "mouth",
     "necks",
@@ -66,17 +65,9 @@ def family(
     return Family(name, place, "Pipe assembly", name.split("/")[0], build, sizes, grain, weight)
 
 
-def lathe_z(outline: Outline, sides: int, bore: float = 0.0) -> Solid:
-    """What is turned about z: ``(radius, height)`` up its outside, with a round bore right through [m]."""
-    points = list(outline)
-    if bore <= 0:
-        return turned(points, sides)
-    return weld([revolve([*points, (bore, points[-1][1]), (bore, points[0][1])], sides, closed=True)])
-
-
 def lathe(outline: Outline, sides: int, bore: float = 0.0) -> Solid:
     """What is turned about x: ``(radius, x)`` along its outside, with a round bore right through [m]."""
-    return about_x(lathe_z(outline, sides, bore))
+    return about_x(turned(list(outline), sides, bore=bore))
 
 
 def pipe_x(dn: int, low: float, high: float, style: ModelingStyle) -> Solid:

@@ -15,7 +15,6 @@ from cadplants.families.piping.shape import (
     flat_flange,
     knurled,
     lathe,
-    lathe_z,
     mouth,
     necks,
     pipe_x,
@@ -26,7 +25,7 @@ from cadplants.family import Family, Model, Part
 from cadplants.flange import plate_thickness
 from cadplants.mesh_ops import Solid, about_x, extrude, merge, moved, revolve, weld
 from cadplants.modeling_style import ModelingStyle
-from cadplants.primitives import box, cylinder
+from cadplants.primitives import box, cylinder, turned
 from cadplants.standards import FACE_TO_FACE, FLANGES, PIPES, SIZES
 from cadplants.transforms import at, spun
 from cadplants.valve_body import bore_of
@@ -235,7 +234,11 @@ def _bag(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     x = neck + cone + mid
     half = [(r, 0.0), (r, neck), (wide, neck + cone), (wide, x)]
     thick = 0.006 + 0.1 * r
-    first = lathe([*half[:-1], (wide, x - thick), (1.22 * wide, x - thick), (1.22 * wide, x)], n)
+    outside = [*half[:-1], (wide, x - thick), (1.22 * wide, x - thick), (1.22 * wide, x)]
+    bore, room = bore_of(dn, style), 0.9 * wide
+    # A can is as thin as the pipe, so that its inside widens with it.
+    inside = [(room, x), (room, neck + cone), (bore, neck), (bore, 0.0)]
+    first = about_x(weld([revolve([*outside, *inside], n, closed=True)])) if bore else lathe(outside, n)
     second = moved(first, at(length) @ spun("z", np.pi))
     parts = [_own(first, "trim"), _own(second, "trim")]
     if rng.random() < 0.6:
@@ -268,7 +271,7 @@ def _cartridge(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model
     )
     low = -2.1 * r - 0.01
     glass = [(0.3 * bowl, low - tall), (0.85 * bowl, low - tall + 0.1 * bowl), (bowl, low)]
-    parts += [_own(ring_, "rubber"), _own(moved(lathe_z(glass, n), at(x)), "dial")]
+    parts += [_own(ring_, "rubber"), _own(moved(turned(glass, n), at(x)), "dial")]
     cock = merge(
         [
             cylinder(0.3 * r + 0.003, low - tall - 0.025, low - tall, 10),

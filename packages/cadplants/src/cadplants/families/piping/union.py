@@ -215,8 +215,10 @@ def _barbed(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     for k in range(4):
         a = 2 * hexa + barb * k / 4
         ridges += [(r, a), (1.08 * r, a + 0.2 * barb)]
-    thread = lathe([(1.0 * r, 0.0), (1.0 * r, hexa)], n)
-    one = merge([thread, prism(2.4 * r + 0.005, 6, hexa, 2 * hexa), lathe([*ridges, (0.95 * r, 2 * hexa + barb)], n)])
+    bore = 0.9 * bore_of(dn, style)
+    thread = lathe([(1.0 * r, 0.0), (1.0 * r, hexa)], n, bore)
+    nut = prism(2.4 * r + 0.005, 6, hexa, 2 * hexa, bore, n)
+    one = merge([thread, nut, lathe([*ridges, (0.95 * r, 2 * hexa + barb)], n, bore)])
     low, high, outer = 2 * hexa + 0.15 * barb, length - 2 * hexa - 0.15 * barb, 1.3 * r + 0.003
     hose = lathe([(outer, low), (outer, high)], n, 0.98 * r)
     parts = [

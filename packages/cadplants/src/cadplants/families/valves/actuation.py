@@ -203,7 +203,7 @@ def _motor_box(radius: float, style: ModelingStyle, rng: Rng) -> list[Part]:
     parts = [Part(merge(solids), "actuator", "motor", "actuator")]
     parts += placed([indicator(0.4 * half, style, rng, 3)], at(0.3 * half, 0, tall + 0.15 * half))
     if rng.random() < 0.6:
-        side = [shaft(0.0, 0.3 * half, 0.08 * half, style), hand_wheel(0.75 * half, 0.25 * half, style, rng)]
+        side = [shaft(0.0, 0.45 * half, 0.08 * half, style), hand_wheel(0.75 * half, 0.4 * half, style, rng)]
         parts += placed(side, at(-0.3 * half, -1.0 * deep, 0.35 * tall) @ spun("x", np.pi / 2))
     return placed(parts, quarter(rng))
 
@@ -255,7 +255,7 @@ def _multi_turn(radius: float, style: ModelingStyle, rng: Rng) -> list[Part]:
     )
     parts = [Part(merge([body, motor, *fins, control, cover]), "actuator", "motor", "actuator")]
     parts.append(Part(glass, "position indicator", "dial", "actuator"))
-    side = [shaft(0.0, 0.35 * half, 0.12 * half, style), hand_wheel(0.9 * half, 0.3 * half, style, rng)]
+    side = [shaft(0.0, 0.55 * half, 0.12 * half, style), hand_wheel(0.9 * half, 0.5 * half, style, rng)]
     parts += placed(side, at(0, -0.6 * half, z) @ spun("x", np.pi / 2))
     return placed(parts, quarter(rng))
 

@@ -41,6 +41,7 @@ from cadplants.primitives import (
 )
 from cadplants.standards import FACE_TO_FACE, FLANGES, PIPES, SIZES
 from cadplants.transforms import at, spun
+from cadplants.valve_body import bore_of
 
 __all__ = ["CHECKS"]
 
@@ -181,7 +182,7 @@ def _piston(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
             (1.2 * r, 0.64 * length),
         ]
         end += [(1.5 * r + 0.003, 0.7 * length), (1.5 * r + 0.003, length)]
-        run = along("x", turned(end, n))
+        run = along("x", turned(end, n, bore=bore_of(dn, style)))
     tower = moved(turned([(0.8 * chest, -1.1 * chest), (chest, -0.7 * chest), (chest, seat - 0.003)], n), at(x))
     parts = [body(run, tower)]
     kind = int(rng.integers(3))

@@ -29,6 +29,7 @@ from cadplants.polygon import circle, rounded_rectangle
 from cadplants.primitives import along, around, ball, box, cylinder, hexagon, ring, rod, rope, turned
 from cadplants.standards import FACE_TO_FACE, FLANGES, PIPES, SIZES
 from cadplants.transforms import at, spun
+from cadplants.valve_body import bore_of
 
 __all__ = ["COCKS"]
 
@@ -41,7 +42,8 @@ def _angle_seat(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Mode
     if rng.random() < 0.6:
         run = screwed(dn, style, length, core, int(rng.choice([6, 8])))
     else:
-        run = along("x", turned([(1.0 * r, 0.0), *core, (1.0 * r, length)], style.round(1.3 * r)))
+        outline = [(1.0 * r, 0.0), *core, (1.0 * r, length)]
+        run = along("x", turned(outline, style.round(1.3 * r), bore=bore_of(dn, style)))
     pose = at(0.5 * length) @ spun("y", float(rng.choice([-0.785, 0.785, 0.65])))
     n, wide = style.round(1.6 * r), 1.15 * r + 0.002
     neck = turned([(wide, 0.0), (wide, 2.2 * r), (0.85 * wide, 2.4 * r)], n)

@@ -26,20 +26,10 @@ from cadplants.family import Family, Model, Part, placed
 from cadplants.mesh_ops import Solid, about_x, merge, moved
 from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle
-from cadplants.primitives import (
-    along,
-    ball,
-    box,
-    cylinder,
-    hexagon,
-    lofted,
-    ring,
-    torus,
-    turned,
-    waves,
-)  # fmt: skip
+from cadplants.primitives import along, ball, box, cylinder, hexagon, lofted, ring, torus, turned, waves  # fmt: skip
 from cadplants.standards import FACE_TO_FACE, FLANGES, PIPES, SIZES
 from cadplants.transforms import at
+from cadplants.valve_body import bore_of
 
 __all__ = ["GLOBES", "globe_body", "globe_plug"]
 
@@ -196,19 +186,19 @@ def _needle(dn: int, style: ModelingStyle, rng: Rng) -> Model:
     """A needle valve from bar stock: a hexagon, square, round or forged tee body, screwed bonnet, tee bar or knob."""
     radius = PIPES[dn].radius
     length, kind = 0.03 + 3.2 * radius, int(rng.integers(4))
-    big, x, n = 1.25 * radius + 0.003, length / 2, 16
+    big, x, n, bore = 1.25 * radius + 0.003, length / 2, 16, bore_of(dn, style)
     if kind == 0:
-        body = along("x", slab(circle(1.15 * big, 6, phase=np.pi / 6), 0.0, length))
+        body = along("x", slab(circle(1.15 * big, 6, phase=np.pi / 6), 0.0, length, (circle(bore, n),) if bore else ()))
     elif kind == 1:
         body = merge(
             [
                 box((0.9 * length, 2 * big, 2.1 * big), (x, 0, 0.05 * big)),
-                along("x", cylinder(1.05 * radius, 0.0, length, n)),
+                along("x", ring(bore, 1.05 * radius, 0.0, length, n)),
             ]
         )
     elif kind == 2:
         body = merge(
-            [along("x", cylinder(big, 0.0, length, n)), box((1.6 * big, 1.9 * big, 1.6 * big), (x, 0, 0.3 * big))]
+            [along("x", ring(bore, big, 0.0, length, n)), box((1.6 * big, 1.9 * big, 1.6 * big), (x, 0, 0.3 * big))]
         )
     else:
         body = merge(

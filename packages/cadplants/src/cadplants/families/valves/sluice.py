@@ -139,7 +139,10 @@ def _sluice(dn: int, style: ModelingStyle, rng: Rng) -> Model:
             at(0.045, 0, tall + 0.04),
         )
     else:
-        parts += quarter_turn(0.045, tall + 0.04, 0.12, style, rng, ("bevel", "bevel", "multi-turn"))
+        # On a foot, so that the wheel on its side clears the frame's head.
+        foot = moved(cylinder(0.09, 0.0, 0.04, 20), at(0.045, 0, tall + 0.04))
+        parts.append(Part(foot, "yoke", "valve", BODY))
+        parts += quarter_turn(0.045, tall + 0.08, 0.12, style, rng, ("bevel", "bevel", "multi-turn"))
     return Model(parts, kind="sluice gate")
 
 

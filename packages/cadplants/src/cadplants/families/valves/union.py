@@ -23,9 +23,10 @@ from cadplants.family import Family, Model, Part, placed
 from cadplants.mesh_ops import Solid, about_x, merge, moved
 from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle
-from cadplants.primitives import along, around, ball, box, cylinder, hexagon, ring, turned
+from cadplants.primitives import along, around, ball, box, cylinder, hexagon, ring
 from cadplants.standards import FACE_TO_FACE, FLANGES, PIPES, SIZES
 from cadplants.transforms import at, spun
+from cadplants.valve_body import bore_of
 
 __all__ = ["UNIONS"]
 
@@ -209,14 +210,14 @@ def _blocked(dn: int, style: ModelingStyle, rng: Rng) -> Model:
     """A high-pressure block ball valve of hydraulics: a square steel block, screwed-in hexagon ends, a bent lever."""
     radius = PIPES[dn].radius
     block, end = 2.4 * radius + 0.02, 1.1 * radius + 0.012
-    length, x = block + 2 * end, block / 2 + end
+    length, x, bore = block + 2 * end, block / 2 + end, bore_of(dn, style)
     half = 1.35 * radius + 0.006
     core = along("x", slab(rounded_rectangle(2 * half, 2 * half, 0.08 * half, 2), end, end + block))
-    ends = [along("x", turned([(1.15 * radius, 0.0), (1.15 * radius, end)], 16))]
+    ends = [along("x", ring(bore, 1.15 * radius, 0.0, end, 16))]
     ends += [
-        along("x", hexagon(2.5 * radius, 0.5 * end, end), 0.0),
+        along("x", hexagon(2.5 * radius, 0.5 * end, end, bore, 16), 0.0),
         moved(ends[0], at(length - end)),
-        along("x", hexagon(2.5 * radius, 0.0, 0.5 * end), length - end),
+        along("x", hexagon(2.5 * radius, 0.0, 0.5 * end, bore, 16), length - end),
     ]
     holes = along(
         "y",

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from cadplants.families.valves.drive import BODY, diaphragm_head, drive, stem, wheel
@@ -17,10 +19,10 @@ from cadplants.valve_body import bore_of, flipped
 
 __all__ = ["VALVE_FAMILIES", "bolt_circle", "disc_flange", "flanged_body", "valve_family"]
 
-Middle = list[tuple[float, float]]
+Middle = Sequence[tuple[float, float]]
 
 
-def flanged_body(dn: int, style: ModelingStyle, length: float, middle: Middle) -> Solid:
+def flanged_body(dn: int, style: ModelingStyle, length: float, middle: Middle, throat: Middle = ()) -> Solid:
     """A body of revolution along x with a flange at each end.
 
     Args:
@@ -28,6 +30,7 @@ def flanged_body(dn: int, style: ModelingStyle, length: float, middle: Middle) -
         style: decides on bore and bolt holes.
         length: face to face [m].
         middle: radius and place of what lies between the flanges' backs [m]; ends get the flanges' thickness added.
+        throat: radius and place of what the bore narrows to between the faces [m].
     """
     size, thick, bore = FLANGES[dn], plate_thickness(dn), bore_of(dn, style)
     sides, neck = style.round(size.outer / 2), 0.485 * size.hub
@@ -35,16 +38,17 @@ def flanged_body(dn: int, style: ModelingStyle, length: float, middle: Middle) -
     outside = [(neck, thick), *middle, (neck, length - thick)]
     shells = [head, flipped(head, length), revolve(outside, sides)]
     if bore:
-        shells.append(revolve([(bore, length), (bore, 0.0)], sides))
+        shells.append(revolve([(bore, length), *reversed(throat), (bore, 0.0)], sides))
     return about_x(weld(shells))
 
 
-def disc_flange(dn: int, style: ModelingStyle, reach: float) -> Solid:
-    """A flange about z with its face at 0 looking down, on a neck up to ``reach`` [m]."""
+def disc_flange(dn: int, style: ModelingStyle, reach: float, bore: float = 0.0) -> Solid:
+    """A flange about z with its face at 0 looking down, on a neck up to ``reach``; bored through if asked for [m]."""
     size, thick = FLANGES[dn], plate_thickness(dn)
     sides, neck = style.round(size.outer / 2), 0.485 * size.hub
-    head = face_shell(dn, sides, neck, 0.0, style.holes)
-    return weld([head, revolve([(neck, thick), (neck, reach), (0.0, reach)], sides)])
+    head = face_shell(dn, sides, neck, bore, style.holes)
+    inside = [(bore, reach), (bore, 0.0)] if bore else [(0.0, reach)]
+    return weld([head, revolve([(neck, thick), (neck, reach), *inside], sides)])
 
 
 def bolt_circle(count: int, radius: float, thread: float, low: float, high: float) -> Solid:

@@ -13,6 +13,7 @@ from cadplants.polygon import rounded_rectangle
 from cadplants.primitives import along, around, box, cylinder, hexagon, ring, rod, rope, torus, turned
 from cadplants.standards import FLANGES, PIPES, SIZES
 from cadplants.transforms import at, looking, spun
+from cadplants.valve_body import bore_of
 
 __all__ = ["EQUIPMENT"]
 
@@ -446,7 +447,7 @@ def _small_filter(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Mo
     x = length / 2
     head = merge(
         [
-            along("x", cylinder(1.3 * radius, 0, length, style.round(radius))),
+            along("x", ring(bore_of(dn, style), 1.3 * radius, 0, length, style.round(radius))),
             moved(turned([(r, -0.4 * r), (1.08 * r, -0.3 * r), (1.08 * r, 0.7 * r), (0.9 * r, 0.9 * r)], n), at(x)),
         ]
     )
