@@ -12,6 +12,7 @@
 # make fuzz   spoilt files of every kind, read or refused in one line? ten thousand, or make fuzz SECONDS=60 SEED=1
 # make train  the embedded labeler anew, with its page of figures (an hour or more on two cores; needs torch)
 # make docs   write the generated documents anew
+# make gallery  the pictures of all generated devices in docs/devices (five minutes on two cores)
 
 PYTHON ?= $(shell for p in python3 python3.13 python3.12 python3.11 python; do \
 	$$p -c 'import sys, venv, ensurepip; sys.exit(sys.version_info < (3, 11))' 2>/dev/null && echo $$p && break; done)
@@ -25,7 +26,7 @@ BROWSERS := chromium chromium-browser google-chrome google-chrome-stable microso
 WEB_TOOLS := web/node_modules/.package-lock.json
 NO_NODE := the page needs Node 20 or newer with npm to be built or checked: https://nodejs.org; the one that is built already works without
 
-.PHONY: demo test test-fast test-physics browser web web-tools web-test screenshots check check-wheel bench fuzz train docs clean
+.PHONY: demo test test-fast test-physics browser web web-tools web-test screenshots check check-wheel bench fuzz train docs gallery clean
 
 demo: $(VENV)/.with-all
 	$(BIN)/cadgraph demo --output demo
@@ -105,6 +106,9 @@ train: $(VENV)/.with-train
 docs: $(VENV)/.with-dev
 	$(BIN)/python tools/write_docs.py
 	$(BIN)/python tools/draw_architecture.py
+
+gallery: $(VENV)/.with-dev
+	$(BIN)/python tools/draw_devices.py
 
 clean:
 	rm -rf $(VENV) $(PHYSICS) demo .pytest_cache .mypy_cache .ruff_cache .hypothesis

@@ -8,8 +8,8 @@ from collections.abc import Callable, Collection
 __all__ = ["Remaining", "told"]
 
 _SHARES = {
-    "read": 8, "measure": 11, "contacts": 2, "group": 1, "cluster": 1, "label": 13, "relate": 11, "places": 2,
-    "mechanisms": 1, "assemble": 6, "write graph": 4, "write labels": 5, "draw report": 40,
+    "read": 13, "measure": 3, "contacts": 1, "group": 1, "cluster": 1, "label": 8, "relate": 13, "places": 2,
+    "mechanisms": 1, "assemble": 4, "write graph": 4, "write labels": 6, "draw report": 43,
 }  # fmt: skip
 """Of the time of a build of 10,000 meshes (``packages/cadlab/benchmarks/size.py``), in the order in which they come."""
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from cadgraph.stages.relate.joint import gather_ends
-from cadgraph.stages.relate.offer import Ahead, find_ahead, is_hidden, offer_mount
+from cadgraph.stages.relate.offer import Ahead, EndsAhead, is_hidden, offer_mount
 from runs import offers, run, taps, touching
 
 
@@ -98,10 +98,10 @@ def test_what_lies_in_a_gap_of_ten_millimetres_hides(ahead, hidden):
 
 def test_ends_ahead_lie_on_the_axis_and_not_behind():
     ends = gather_ends(dict(enumerate([run(-1, 0), run(0.01, 1), run([0.01, 0.04, 0], [1, 0.04, 0])])))
-    found = find_ahead(ends, np.array([[0, 2], [1, 2], [1, 4], [1, 3]]))
-    assert [(one.row, one.part, one.alike) for one in found[1]] == [(2, 1, False), (3, 1, True)]
-    assert [(one.row, one.alike) for one in found[2]] == [(0, True), (1, False)]
-    assert 0 not in found
+    found = EndsAhead(ends, np.array([[0, 2], [1, 2], [1, 4], [1, 3]]))
+    assert [(one.row, one.part, one.alike) for one in found.of(1)] == [(2, 1, False), (3, 1, True)]
+    assert [(one.row, one.alike) for one in found.of(2)] == [(0, True), (1, False)]
+    assert found.of(0) == []
 
 
 @pytest.mark.parametrize(("gap", "flag"), [(0.0059, set()), (0.0061, {"blocked"})])

@@ -15,12 +15,11 @@ from cadgraph.model.scene import Floats, Ints
 from cadgraph.stages.relate.decide import Decision, decide_joints, settle_faces
 from cadgraph.stages.relate.joint import Ends, Facing, Tap, gather_ends, nearest_on, same_place
 from cadgraph.stages.relate.offer import (
-    Ahead,
+    EndsAhead,
     Offer,
     Surroundings,
     bear_witness,
     ends_about,
-    find_ahead,
     is_hidden,
     offer_faces,
     offer_far_mount,
@@ -152,7 +151,7 @@ def attach_lines(
     ends = gather_ends(lines)
     solid = set(solids)
     around = Surroundings(contacts, bridge, set(_shut(contacts, lines, solid)), bolted, stated or Stated())
-    ahead = find_ahead(ends, ends_about(ends, around))
+    ahead = EndsAhead(ends, ends_about(ends, around))
     faces = offer_faces(ends, around, ahead)
     settled = settle_faces(faces)
     loose = {row for row in range(len(ends.part)) if row not in settled}
@@ -178,7 +177,7 @@ def _with_witness(
     solids: set[int],
     ends: Ends,
     singles: Mapping[int, Sequence[Offer]],
-    ahead: Mapping[int, Sequence[Ahead]],
+    ahead: EndsAhead,
     around: Surroundings,
 ) -> dict[int, list[Offer]]:
     """The offers of each end at solids and sides of lines with what the file says of them, and those that only the file
@@ -201,7 +200,7 @@ def _far_taps(ends: Ends, row: int, lines: Mapping[int, Centreline], around: Sur
 
 
 def _far_mounts(
-    parts: Parts, ends: Ends, row: int, solids: Sequence[int], ahead: Mapping[int, Sequence[Ahead]], stated: Stated
+    parts: Parts, ends: Ends, row: int, solids: Sequence[int], ahead: EndsAhead, stated: Stated
 ) -> list[Offer]:
     """The solids before an end that the file joins it to, farther off than geometry alone would look."""
     point, direction, radius = ends.point[row], ends.direction[row], float(ends.radius[row])
@@ -214,7 +213,7 @@ def _far_mounts(
         vertices, faces = parts.scene.mesh(solid)
         met = mouth_gap(vertices[faces], point, direction, radius)
         part = int(ends.part[row])
-        if met is not None and not is_hidden(ahead.get(row, ()), met[0], (part,)):
+        if met is not None and not is_hidden(ahead.of(row), met[0], (part,)):
             said = stated.by(part, solid) or ""
             offers.append(offer_far_mount(row, solid, *met, radius, said))
     return offers
@@ -361,7 +360,7 @@ def _mounts(
     feet: set[int],
     ends: Ends,
     loose: set[int],
-    ahead: Mapping[int, Sequence[Ahead]],
+    ahead: EndsAhead,
 ) -> tuple[dict[int, list[Offer]], tuple[Side, ...]]:
     """The solids that each loose end may be at; and solids at the sides of lines."""
     tight: list[int] = []
@@ -389,14 +388,14 @@ def _mounts(
 
 
 def _offers_at(
-    touches: Sequence[_Touch], ends: Ends, loose: Collection[int], ahead: Mapping[int, Sequence[Ahead]]
+    touches: Sequence[_Touch], ends: Ends, loose: Collection[int], ahead: EndsAhead
 ) -> tuple[dict[int, list[Offer]], list[_Touch]]:
     """The offers of loose ends at solids, and where lines touch solids without an end there."""
     offers: dict[int, list[Offer]] = {}
     beside = []
     for touch in touches:
         rows = ends.of_part.get(touch.part, ())
-        found = [offer for end in rows if (offer := _offer(ends, end, touch, ahead.get(end, ()))) is not None]
+        found = [offer for end in rows if (offer := _offer(ends, end, touch, ahead)) is not None]
         if not found:
             beside.append(touch)
         for offer in found:
@@ -446,7 +445,7 @@ def _side(line: Centreline, part: int, solid: int, place: Floats, gap: float) ->
     return Side(solid, part, Tap(number, near[0], near[1], gap, near[3]))
 
 
-def _offer(ends: Ends, row: int, touch: _Touch, ahead: Sequence[Ahead]) -> Offer | None:
+def _offer(ends: Ends, row: int, touch: _Touch, ahead: EndsAhead) -> Offer | None:
     """An end at a solid where the middle of their contact is; None where that is not at the end."""
     direction, radius = ends.direction[row], float(ends.radius[row])
     offset = touch.place - ends.point[row]
@@ -458,7 +457,7 @@ def _offer(ends: Ends, row: int, touch: _Touch, ahead: Sequence[Ahead]) -> Offer
     facing = None if touch.normal is None else float(touch.normal @ direction)
     if facing is not None and facing < _AGREES:
         return None
-    hidden = touch.gap > _TIGHT and is_hidden(ahead, touch.gap, (touch.part,))
+    hidden = touch.gap > _TIGHT and is_hidden(ahead.of(row), touch.gap, (touch.part,))
     return offer_mount(row, touch.solid, touch.gap, along, off, facing, radius, hidden)
 
 

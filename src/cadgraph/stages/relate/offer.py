@@ -21,11 +21,11 @@ from cadgraph.stages.relate.stated import REACH, Stated
 
 __all__ = [
     "Ahead",
+    "EndsAhead",
     "Offer",
     "Surroundings",
     "bear_witness",
     "ends_about",
-    "find_ahead",
     "is_hidden",
     "near_ends",
     "offer_faces",
@@ -140,20 +140,32 @@ class Ahead:
     alike: bool
 
 
-def find_ahead(ends: Ends, pairs: Ints) -> dict[int, list[Ahead]]:
-    """For each end those of near ends that lie on its axis, not behind it."""
-    found: dict[int, list[Ahead]] = {}
-    for i, j in ((pairs[:, 0], pairs[:, 1]), (pairs[:, 1], pairs[:, 0])):
-        between = ends.point[j] - ends.point[i]
-        distance = np.einsum("ij,ij->i", between, ends.direction[i])
-        off = np.linalg.norm(between - distance[:, None] * ends.direction[i], axis=1)
-        cosine = np.einsum("ij,ij->i", ends.direction[i], ends.direction[j])
-        lesser = np.minimum(ends.radius[i], ends.radius[j])
-        near = (np.abs(cosine) >= -_OPPOSED) & (off <= _ON_AXIS * lesser) & (distance > -_BEFORE)
-        for k in np.flatnonzero(near).tolist():
-            one = Ahead(int(j[k]), int(ends.part[j[k]]), float(distance[k]), bool(cosine[k] > 0))
-            found.setdefault(int(i[k]), []).append(one)
-    return found
+class EndsAhead:
+    """For each end those of near ends that lie on its axis, not behind it; told one end at a time.
+
+    Args:
+        ends: of all lines.
+        pairs: ``(n, 2)`` rows of ends that are near each other.
+    """
+
+    def __init__(self, ends: Ends, pairs: Ints) -> None:
+        row, other = np.concatenate([pairs, pairs[:, ::-1]]).T
+        between = ends.point[other] - ends.point[row]
+        distance = np.einsum("ij,ij->i", between, ends.direction[row])
+        off = np.linalg.norm(between - distance[:, None] * ends.direction[row], axis=1)
+        cosine = np.einsum("ij,ij->i", ends.direction[row], ends.direction[other])
+        lesser = np.minimum(ends.radius[row], ends.radius[other])
+        near = np.flatnonzero((np.abs(cosine) >= -_OPPOSED) & (off <= _ON_AXIS * lesser) & (distance > -_BEFORE))
+        near = near[np.argsort(row[near], kind="stable")]
+        self._first = np.searchsorted(row[near], np.arange(len(ends.part) + 1))
+        self._row, self._part = other[near], ends.part[other[near]]
+        self._distance, self._alike = distance[near], cosine[near] > 0
+
+    def of(self, row: int) -> list[Ahead]:
+        """The ends before one."""
+        cut = slice(int(self._first[row]), int(self._first[row + 1]))
+        columns = self._row[cut], self._part[cut], self._distance[cut], self._alike[cut]
+        return [Ahead(*one) for one in zip(*(column.tolist() for column in columns), strict=True)]
 
 
 def is_hidden(ahead: Sequence[Ahead], gap: float, own: Collection[int]) -> bool:
@@ -164,19 +176,19 @@ def is_hidden(ahead: Sequence[Ahead], gap: float, own: Collection[int]) -> bool:
     )
 
 
-def offer_faces(ends: Ends, around: Surroundings, ahead: Mapping[int, Sequence[Ahead]] | None = None) -> list[Offer]:
+def offer_faces(ends: Ends, around: Surroundings, ahead: EndsAhead | None = None) -> list[Offer]:
     """The pairs of ends that may face each other; also some that more speaks against than for, which are never made but
     say why.
 
     Args:
         ends: of all lines.
         around: what lies around them.
-        ahead: what lies on the axis of each end, as ``find_ahead`` finds it; found here if None.
+        ahead: what lies on the axis of each end, found here if None.
     """
     pairs = near_ends(ends, around)
     if not len(pairs):
         return []
-    ahead = find_ahead(ends, pairs) if ahead is None else ahead
+    ahead = EndsAhead(ends, pairs) if ahead is None else ahead
     i, j = pairs[:, 0], pairs[:, 1]
     cosine = np.einsum("ij,ij->i", ends.direction[i], ends.direction[j])
     measured, gap, straight = _measure(ends, i, j, cosine)
@@ -243,7 +255,7 @@ def _across(offer: Offer) -> Offer:
 
 
 def _flags(
-    ends: Ends, pairs: Ints, gap: Floats, straight: Bools, around: Surroundings, ahead: Mapping[int, Sequence[Ahead]]
+    ends: Ends, pairs: Ints, gap: Floats, straight: Bools, around: Surroundings, ahead: EndsAhead
 ) -> dict[str, Bools]:
     """What holds of each pair of ends, but for habit.
 
@@ -260,7 +272,7 @@ def _flags(
     hidden = np.zeros(len(pairs), np.bool_)
     for k in np.flatnonzero(straight & (gap > 2 * _BEFORE)).tolist():
         own = (int(ends.part[i[k]]), int(ends.part[j[k]]))
-        hidden[k] = any(is_hidden(ahead.get(int(row), ()), float(gap[k]), own) for row in pairs[k])
+        hidden[k] = any(is_hidden(ahead.of(int(row)), float(gap[k]), own) for row in pairs[k])
     return {
         "hidden": hidden,
         "disc": _is_disc(ends, i) | _is_disc(ends, j),
