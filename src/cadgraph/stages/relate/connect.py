@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -189,6 +189,7 @@ def _contract(piping: Piping, units: Sequence[UnitParts], drawing: Drawing, name
     tapped = {number for number, unit in enumerate(units) if unit.unit_type in ("gauge", "valve")}
     covers = frozenset(part for part, line in piping.lines.items() if _is_cover(line, names[part]))
     net = simplify(drawing, tapped, covers, len(units), given.config.relate.leg)
+    carried = {*piping.lines, *piping.lineless, *_owners(units), *piping.jackets}
     return make_network(
         net,
         drawing,
@@ -196,15 +197,14 @@ def _contract(piping: Piping, units: Sequence[UnitParts], drawing: Drawing, name
         piping.lines,
         piping.joints,
         lambda part: _CLOSED.get(names[part] or ""),
-        lambda row: _cover(piping, units, row),
+        lambda row: _cover(piping, carried, row),
         given.is_connector.__getitem__,
     )
 
 
-def _cover(piping: Piping, units: Sequence[UnitParts], row: int) -> Cover | None:
-    """What the bodies that a free end lies against make of it."""
+def _cover(piping: Piping, carried: Collection[int], row: int) -> Cover | None:
+    """What the bodies that a free end lies against make of it, those that carry lines left out."""
     given, ends = piping.given, piping.joints.ends
-    carried = {*piping.lines, *piping.lineless, *_owners(units), *piping.jackets}
     near = given.contacts.neighbors.get(int(ends.part[row]), [])
     return cover_of(given.parts, [part for part in near if part not in carried], ends, row)
 

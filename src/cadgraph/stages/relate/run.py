@@ -51,7 +51,11 @@ def make_network(
     spans = _kept(net, len(units), sure)
     nodes = _places_of(spans, len(units))
     number = {**{k: k for k in range(len(units))}, **{node: len(units) + k for k, node in enumerate(nodes)}}
-    places = tuple(_place(node, spans, drawing, lines, found, ending, cover) for node in nodes)
+    leaving, arriving = _by_ends(spans)
+    places = tuple(
+        _place(node, leaving.get(node, ()), arriving.get(node, ()), drawing, lines, found, ending, cover)
+        for node in nodes
+    )
     opened, renumbered = _used_openings(spans, units, drawing)
     directed = [span if number[span.a] <= number[span.b] else span.reversed() for span in spans]
     links = [_link(span, number, opened, renumbered) for span in directed]
@@ -119,29 +123,35 @@ def _by_place(spans: Sequence[Span]) -> Callable[[int], tuple[float, ...]]:
     return lambda node: (*(round(float(x), 4) for x in where[node]), node)
 
 
+def _by_ends(spans: Sequence[Span]) -> tuple[dict[int, list[Span]], dict[int, list[Span]]]:
+    """The spans that begin at each node, and those that end at it."""
+    leaving: dict[int, list[Span]] = {}
+    arriving: dict[int, list[Span]] = {}
+    for span in spans:
+        leaving.setdefault(span.a, []).append(span)
+        arriving.setdefault(span.b, []).append(span)
+    return leaving, arriving
+
+
 def _place(
     node: int,
-    spans: Sequence[Span],
+    leaving: Sequence[Span],
+    arriving: Sequence[Span],
     drawing: Drawing,
     lines: Mapping[int, Centreline],
     found: Attachments,
     ending: Callable[[int], str | None],
     cover: Callable[[int], str | None],
 ) -> Place:
-    meeting = [(span.points[0], span.via[:1]) for span in spans if span.a == node]
-    meeting += [(span.points[-1], span.via[-1:]) for span in spans if span.b == node]
+    meeting = [(span.points[0], span.via[:1]) for span in leaving]
+    meeting += [(span.points[-1], span.via[-1:]) for span in arriving]
     parts = tuple(sorted({part for _, via in meeting for part in via}))
     x, y, z = (float(v) for v in np.mean([point for point, _ in meeting], axis=0))
     kind = "junction"
     if len(meeting) == 1:
-        kind = _ending(_only_span(node, spans), node, drawing, lines, found, ending, cover)
+        span = arriving[0] if arriving else leaving[0].reversed()
+        kind = _ending(span, node, drawing, lines, found, ending, cover)
     return Place(kind, (x, y, z), parts)
-
-
-def _only_span(node: int, spans: Sequence[Span]) -> Span:
-    """The span that ends at a node, as it comes there."""
-    (span,) = (span for span in spans if node in (span.a, span.b))
-    return span if span.b == node else span.reversed()
 
 
 def _ending(
