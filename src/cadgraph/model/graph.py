@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any, cast, get_args, overload
 
 from cadgraph._io.atomic import write_atomically
 from cadgraph._io.depth import MOST_LEVELS, is_too_deep
+from cadgraph._io.garbage import collector_paused
 from cadgraph._io.json_rows import write_json_rows
 from cadgraph._io.limits import GRAPH, decoded
 from cadgraph._io.manifest import GRAPH_FILE, read_checked
@@ -394,6 +395,7 @@ class SceneGraph:
             raise FormatError(f"{where}: holds values in more than {MOST_LEVELS} levels; build the graph anew")
         return cls(validated(data, where))
 
+    @collector_paused()
     def save(self, path: str | Path, shard_above: int | None = None) -> Path:
         """Writes ``graph.json``, whole or not at all; the same graph gives the same bytes.
 

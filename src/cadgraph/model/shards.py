@@ -42,6 +42,7 @@ SHARDED = 2
 """``version`` of a ``graph.json`` whose rows are in shards; one that is whole has 1."""
 
 _KEYS = ("nodes", "edges", "joints", "stated", "diagnostics")
+_ENCODER = json.JSONEncoder(ensure_ascii=False, allow_nan=False)
 _CUT = ("part", "contains", "adjacent")  # kinds of nodes and edges that grow with the number of meshes
 _KIND_OF = {"nodes": "layer", "edges": "kind"}  # the key that says of what kind a row is
 _MOST = 1 << 29  # [bytes] of a shard as text
@@ -158,7 +159,7 @@ def cut(
 
 def _line(row: Any) -> bytes:
     # As in graph.json: a lone surrogate has no UTF-8.
-    return (json.dumps(row, ensure_ascii=False, allow_nan=False) + "\n").encode("utf-8", "backslashreplace")
+    return (_ENCODER.encode(row) + "\n").encode("utf-8", "backslashreplace")
 
 
 def _called(key: str, kind: str, row: Any) -> str:
