@@ -187,17 +187,18 @@ def _bound_colors(
     """The material colour of each mesh and of each of its subsets."""
     if materials is None:
         return {}
-    prims: dict[tuple[str, str | None], tuple[Any, Sequence[Any]]] = {}
+    bindings: dict[tuple[str, str | None], Sequence[str]] = {}
+    paths: list[str] = []
     for placement in placements:
         own = placement.own_path
-        if (own, None) in prims:
+        if (own, None) in bindings:
             continue
-        prims[own, None] = placement.prim, placement.binding
+        bindings[own, None] = placement.binding
+        paths.append(own)
         for name, _ in meshes[str(placement.geometry)][0].subsets:
-            child = placement.prim.GetChild(name)
-            prims[own, name] = child, (child, *placement.binding)
-    colors = materials.bound_colors([p for p, _ in prims.values()], [b for _, b in prims.values()])
-    return dict(zip(prims, colors, strict=True))
+            paths.append(f"{own}/{name}")
+            bindings[own, name] = (paths[-1], *placement.binding)
+    return dict(zip(bindings, materials.bound_colors(paths, list(bindings.values())), strict=True))
 
 
 def _subset_of_triangle(raw: RawMesh, cut: CutMesh) -> Ints:

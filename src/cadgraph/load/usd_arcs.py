@@ -12,6 +12,7 @@ __all__ = ["Arc", "LayerArcs", "Site", "arcs_of"]
 
 _LISTS = {"references": "reference", "payload": "payload", "inheritPaths": "inherit", "specializes": "specialize"}
 _SITE = {*_LISTS, "instanceable", "clips"}
+_Known = dict[tuple[str, Any], tuple["Arc", ...]]
 
 
 class Arc(NamedTuple):
@@ -99,6 +100,7 @@ def arcs_of(layer: Any) -> LayerArcs:
     sizes: list[int] = []
     inner: list[tuple[str, int]] = []
     stack: list[tuple[Any, int]] = [(root, -1)]
+    known: _Known = {}
     while stack:
         prim, parent = stack.pop()
         number = len(above)
@@ -107,7 +109,7 @@ def arcs_of(layer: Any) -> LayerArcs:
         children = prim.nameChildren.values()
         if children:
             inner.append((str(prim.path), number))
-            stack.extend((child, number) for child in children)
+            stack.extend([(child, number) for child in children])
         sets = prim.variantSets
         of_sets = _variants(sets) if len(sets) else ()
         for each in of_sets:
@@ -115,7 +117,7 @@ def arcs_of(layer: Any) -> LayerArcs:
             stack.extend((variant, -1) for variant in each)
         keys = _SITE.intersection(prim.ListInfoKeys())
         if keys or of_sets:
-            _take_site(found, prim, keys, of_sets)
+            _take_site(found, prim, keys, of_sets, known)
     for number in range(len(above) - 1, -1, -1):
         if above[number] >= 0:
             sizes[above[number]] += sizes[number]
@@ -130,9 +132,13 @@ def _variants(sets: Any) -> tuple[tuple[Any, ...], ...]:
     )
 
 
-def _take_site(found: LayerArcs, prim: Any, keys: set[str], of_sets: tuple[tuple[Any, ...], ...]) -> None:
+def _take_site(
+    found: LayerArcs, prim: Any, keys: set[str], of_sets: tuple[tuple[Any, ...], ...], known: _Known
+) -> None:
     path = str(prim.path)
-    arcs = tuple(arc for key in sorted(keys & _LISTS.keys()) for arc in _arcs(key, prim.GetInfo(key), path))
+    arcs: tuple[Arc, ...] = ()
+    for key in sorted(keys & _LISTS.keys()):
+        arcs += _arcs(key, prim.GetInfo(key), path, known)
     instanceable = bool(prim.GetInfo("instanceable")) if "instanceable" in keys else None
     variants = tuple(tuple(str(variant.path) for variant in each) for each in of_sets)
     found.sites[path] = Site(arcs, variants, instanceable)
@@ -140,13 +146,19 @@ def _take_site(found: LayerArcs, prim: Any, keys: set[str], of_sets: tuple[tuple
         found.clips.append((path, tuple(_clip_files(prim.GetInfo("clips")))))
 
 
-def _arcs(key: str, listed: Any, path: str) -> Iterator[Arc]:
-    kind = _LISTS[key]
-    for item in listed.GetAppliedItems():
-        if isinstance(item, Sdf.Path):
-            yield Arc(kind, "", str(item.MakeAbsolutePath(Sdf.Path(path).GetPrimOrPrimVariantSelectionPath())))
-        else:
-            yield Arc(kind, item.assetPath, str(item.primPath) if item.primPath else "")
+def _arcs(key: str, listed: Any, path: str, known: _Known) -> tuple[Arc, ...]:
+    # Instances by the thousand refer to the same few things.
+    found = known.get((key, listed))
+    if found is not None:
+        return found
+    kind, items = _LISTS[key], listed.GetAppliedItems()
+    if any(isinstance(item, Sdf.Path) for item in items):
+        # Relative to where it stands.
+        here = Sdf.Path(path).GetPrimOrPrimVariantSelectionPath()
+        return tuple(Arc(kind, "", str(item.MakeAbsolutePath(here))) for item in items)
+    arcs = tuple(Arc(kind, item.assetPath, str(item.primPath) if item.primPath else "") for item in items)
+    known[key, listed] = arcs
+    return arcs
 
 
 def _clip_files(sets: Any) -> Iterator[str]:

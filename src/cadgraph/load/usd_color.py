@@ -39,19 +39,31 @@ class Materials:
         self._stage = stage
         self._colors: dict[str, Color | None] = {}
 
-    def bound_colors(self, prims: Sequence[Any], binding: Sequence[Sequence[Any]]) -> list[Color | None]:
+    def bound_colors(self, paths: Sequence[str], binding: Sequence[Sequence[str]]) -> list[Color | None]:
         """The base colour bound to each prim, or None.
 
         Args:
-            prims: meshes and subsets.
-            binding: for each the prims that bind a material plainly, itself or the nearest above it first. They
-                count where USD itself finds no binding: older exporters don't apply ``MaterialBindingAPI``.
+            paths: of meshes and subsets.
+            binding: for each the paths of the prims that bind a material plainly, itself or the nearest above it
+                first. They count where USD itself finds no binding: older exporters don't apply
+                ``MaterialBindingAPI``.
         """
-        if not prims:
+        if not paths:
             return []
-        bound, _ = UsdShade.MaterialBindingAPI.ComputeBoundMaterials(list(prims), UsdShade.Tokens.full)
-        paths = [str(m.GetPath()) if m else _plain_target(plain) for m, plain in zip(bound, binding, strict=True)]
-        return [self._color(path) if path else None for path in paths]
+        prims = [self._stage.GetPrimAtPath(path) for path in paths]
+        bound, _ = UsdShade.MaterialBindingAPI.ComputeBoundMaterials(prims, UsdShade.Tokens.full)
+        found = [str(m.GetPath()) if m else self._plain_target(plain) for m, plain in zip(bound, binding, strict=True)]
+        return [self._color(path) if path else None for path in found]
+
+    def _plain_target(self, binding: Sequence[str]) -> str | None:
+        for path in binding:
+            prim = self._stage.GetPrimAtPath(path)
+            for name in ("material:binding:full", "material:binding"):
+                relationship = prim.GetRelationship(name)
+                targets = relationship.GetForwardedTargets() if relationship else []
+                if targets:
+                    return str(targets[0])
+        return None
 
     def _color(self, path: str) -> Color | None:
         if path not in self._colors:
@@ -59,16 +71,6 @@ class Materials:
             material = UsdShade.Material(prim) if prim else None
             self._colors[path] = _base_color(material) if material else None
         return self._colors[path]
-
-
-def _plain_target(binding: Sequence[Any]) -> str | None:
-    for prim in binding:
-        for name in ("material:binding:full", "material:binding"):
-            relationship = prim.GetRelationship(name)
-            targets = relationship.GetForwardedTargets() if relationship else []
-            if targets:
-                return str(targets[0])
-    return None
 
 
 def _base_color(material: Any) -> Color | None:

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -21,7 +20,7 @@ __all__ = ["Placement", "Walk", "message_of"]
 
 Color = npt.NDArray[np.float64]
 Varying = tuple[Floats, str]
-Bindings = tuple[Any, ...]
+Bindings = tuple[str, ...]
 
 _VISIBLE_SCENE = Usd.TraverseInstanceProxies(Usd.PrimDefaultPredicate)
 # Prototypes of a point instancer are often kept under an over or a class, where no prim counts as defined.
@@ -31,24 +30,21 @@ _IDENTITY: Floats = np.eye(4)
 _NO_INTS: Ints = np.zeros(0, np.int64)
 
 
-@dataclass(frozen=True)
-class Placement:
+class Placement(NamedTuple):
     """One mesh in one place.
 
     Args:
         path: in the scene; within the prototype of a point instancer: below that prototype.
-        prim: the mesh.
         own_path: of the prim.
         geometry: key into ``Walk.geometries``; None where the mesh is not to be loaded.
         matrix: ``(4, 4)`` for row vectors, to the world (or to the parent of the prototype).
         color: ``displayColor``: one colour, or values with their interpolation.
-        binding: the prims that bind a material plainly, the mesh or the nearest above it first.
+        binding: paths of the prims that bind a material plainly, the mesh or the nearest above it first.
         anchor: path that carries opinions; None: ``path``.
         skipped: code and reason where it is not to be loaded.
     """
 
     path: str
-    prim: Any
     own_path: str
     geometry: str | None
     matrix: Floats
@@ -58,16 +54,71 @@ class Placement:
     skipped: tuple[str, str] | None = None
 
 
-@dataclass(frozen=True)
-class _Place:
+class _Place(NamedTuple):
     """What a prim has from those above it."""
 
-    matrix: Floats = field(default_factory=lambda: _IDENTITY)
+    matrix: Floats = _IDENTITY
     visible: bool = True
     purpose: str = "default"
     color: Color | Varying | None = None
     binding: Bindings = ()
     anchor: str | None = None
+
+
+class _Own(NamedTuple):
+    """What a prim says of itself.
+
+    Args:
+        matrix: ``(4, 4)`` to the parent; None where it says nothing.
+        resets: whether the matrix leads to the world instead.
+        hidden: whether it is.
+        purpose: None where it says nothing.
+        color: likewise.
+        binds: whether it binds a material plainly.
+        instance: whether it is a native instance.
+    """
+
+    matrix: Floats | None
+    resets: bool
+    hidden: bool
+    purpose: str | None
+    color: Color | Varying | None
+    binds: bool
+    instance: bool
+
+    def under(self, above: _Place, path: str, own_path: str) -> _Place:
+        """What the prim hands down, at a path of the scene."""
+        matrix = above.matrix
+        if self.matrix is not None:
+            matrix = self.matrix if self.resets else self.matrix @ matrix
+        return _Place(
+            matrix,
+            above.visible and not self.hidden,
+            self.purpose or above.purpose,
+            above.color if self.color is None else self.color,
+            (own_path, *above.binding) if self.binds else above.binding,
+            path if self.instance and above.anchor is None else above.anchor,
+        )
+
+
+class _Inner(NamedTuple):
+    """A prim below a native instance, as all instances of the same prototype have it.
+
+    Args:
+        path: from the instance on.
+        above: number of the one above it among all below the instance; -1: the instance itself.
+        own: what it says of itself.
+        kind: of geometry; empty: none.
+        type_name: of the prim.
+        geometry: key of its shape.
+    """
+
+    path: str
+    above: int
+    own: _Own
+    kind: str
+    type_name: str
+    geometry: str
 
 
 class Walk:
@@ -109,6 +160,7 @@ class Walk:
         self._kinds: dict[str, str] = {}
         self._fallbacks: dict[tuple[str, str], Any] = {}
         self._open_instancers: list[str] = []
+        self._prototypes: dict[tuple[str, bool], list[_Inner] | None] = {}
         self.geometries: dict[str, RawMesh] = {}
         self.has_bindings = False
 
@@ -132,40 +184,116 @@ class Walk:
         stack = [(root, place)]
         while stack:
             prim, above = stack.pop()
-            self._visited += 1
-            if self._visited % _WATCHED == 1:
-                self._budget.watch()
-            if self._visited > self._budget.most_prims:
-                self._budget.check_prims(self._visited)
+            self._count(1)
             own_path = str(prim.GetPath())
             path = own_path[cut:]
             try:
-                names = frozenset(prim.GetAuthoredPropertyNames())
-                here = self._enter(prim, names, above, path)
+                own = self._own(prim)
+                here = own.under(above, path, own_path)
                 kind = self._kind(prim)
                 if kind == "instancer":
                     found.extend(self._instances(prim, here, path))
                     self._budget.check_meshes(len(found))
                     continue
-                children = prim.GetFilteredChildren(predicate)
                 if kind:
-                    if len(found) >= self._budget.most_meshes:
-                        self._budget.check_meshes(len(found) + 1)
-                    skipped = self._reason_to_skip(kind, here, prim)
-                    key = None if skipped else self._geometry(prim, kind, names, children, own_path)
-                    found.append(
-                        Placement(
-                            path, prim, own_path, key, here.matrix, here.color, here.binding, here.anchor, skipped
-                        )
-                    )
+                    key = _key(prim, own_path)
+                    found.append(self._placed(path, own_path, kind, prim.GetTypeName(), key, here, predicate, found))
+                children = prim.GetFilteredChildren(predicate)
+                if not children:
+                    continue
+                below = _handed_down(here, above)
+                inner = self._inner(prim, predicate) if own.instance else None
+                if inner is None:
+                    stack.extend((child, below) for child in children)
+                else:
+                    self._place_inner(inner, below, own_path, cut, predicate, found)
             except (Tf.ErrorException, UnicodeDecodeError) as error:
-                self._notes.add("unreadable", f"left out with all below: {_first_line(error)}", own_path)
-                continue
-            if children:
-                # Of the primvars only constant ones are inherited.
-                below = replace(here, color=above.color) if isinstance(here.color, tuple) else here
-                stack.extend((child, below) for child in children)
+                self._note_unreadable(error, own_path)
         return found
+
+    def _count(self, prims: int) -> None:
+        """Counts prims that are visited, and looks at the memory from time to time."""
+        before = self._visited
+        self._visited += prims
+        if before % _WATCHED == 0 or before // _WATCHED < self._visited // _WATCHED:
+            self._budget.watch()
+        if self._visited > self._budget.most_prims:
+            self._budget.check_prims(self._visited)
+
+    def _inner(self, instance: Any, predicate: Any) -> list[_Inner] | None:
+        """What stands below a native instance, each prim before those below it; read once for all that share it.
+
+        None where it has to be walked through for each: it holds point instancers, or something can't be read.
+        """
+        key = str(instance.GetPrototype().GetPath()), predicate is _PROTOTYPE
+        if key not in self._prototypes:
+            try:
+                self._prototypes[key] = self._read_inner(instance, predicate)
+            except (Tf.ErrorException, UnicodeDecodeError):
+                self._prototypes[key] = None
+        return self._prototypes[key]
+
+    def _read_inner(self, instance: Any, predicate: Any) -> list[_Inner] | None:
+        found: list[_Inner] = []
+        cut = len(str(instance.GetPath()))
+        stack = [(child, -1) for child in instance.GetFilteredChildren(predicate)]
+        while stack:
+            prim, above = stack.pop()
+            if len(found) % _WATCHED == 0:
+                self._budget.watch()
+                self._budget.check_prims(self._visited + len(found))
+            kind, path = self._kind(prim), str(prim.GetPath())
+            if kind == "instancer":
+                return None
+            key = _key(prim, path) if kind else ""
+            found.append(_Inner(path[cut:], above, self._own(prim), kind, prim.GetTypeName(), key))
+            stack.extend((child, len(found) - 1) for child in prim.GetFilteredChildren(predicate))
+        return found
+
+    def _place_inner(
+        self, inner: list[_Inner], place: _Place, instance: str, cut: int, predicate: Any, found: list[Placement]
+    ) -> None:
+        """Adds the meshes below an instance at a path, as a walk through it would find them."""
+        self._count(len(inner))
+        handed: list[_Place | None] = []
+        for each in inner:
+            above = place if each.above < 0 else handed[each.above]
+            if above is None:
+                handed.append(None)
+                continue
+            own_path = instance + each.path
+            here = each.own.under(above, own_path[cut:], own_path)
+            below: _Place | None = _handed_down(here, above)
+            if each.kind:
+                try:
+                    placed = self._placed(
+                        own_path[cut:], own_path, each.kind, each.type_name, each.geometry, here, predicate, found
+                    )
+                    found.append(placed)
+                except (Tf.ErrorException, UnicodeDecodeError) as error:
+                    self._note_unreadable(error, own_path)
+                    below = None
+            handed.append(below)
+
+    def _placed(
+        self, path: str, own_path: str, kind: str, type_name: str, key: str, here: _Place, predicate: Any,
+        found: list[Placement],
+    ) -> Placement:  # fmt: skip
+        """A mesh in its place; its shape is read if it is new."""
+        if len(found) >= self._budget.most_meshes:
+            self._budget.check_meshes(len(found) + 1)
+        skipped = self._reason_to_skip(kind, here, type_name)
+        if not skipped and key not in self.geometries:
+            prim = self._stage.GetPrimAtPath(own_path)
+            self.geometries[key] = (
+                self._mesh(prim, predicate) if kind == "mesh" else self._shape(prim, kind, own_path)
+            )
+        return Placement(
+            path, own_path, None if skipped else key, here.matrix, here.color, here.binding, here.anchor, skipped
+        )
+
+    def _note_unreadable(self, error: Exception, path: str) -> None:
+        self._notes.add("unreadable", f"left out with all below: {_first_line(error)}", path)
 
     def _kind(self, prim: Any) -> str:
         name = prim.GetTypeName()
@@ -173,28 +301,24 @@ class Walk:
             self._kinds[name] = _kind_of(prim, name)
         return self._kinds[name]
 
-    def _enter(self, prim: Any, names: frozenset[str], place: _Place, path: str) -> _Place:
-        """What a prim with these authored properties hands down."""
-        matrix, visible, purpose = place.matrix, place.visible, place.purpose
-        color, binding, anchor = place.color, place.binding, place.anchor
+    def _own(self, prim: Any) -> _Own:
+        """What a prim says of itself."""
+        names = frozenset(prim.GetAuthoredPropertyNames())
+        matrix, resets = None, False
         if "xformOpOrder" in names and prim.IsA(UsdGeom.Xformable):
-            local, resets = self._local(prim)
-            matrix = local if resets else local @ matrix
-        if "visibility" in names:
-            visible = visible and self._value(prim, "visibility") != "invisible"
-        if "purpose" in names:
-            purpose = self._value(prim, "purpose") or purpose
-        if "primvars:displayColor" in names:
-            own = self._display_color(prim)
-            color = color if own is None else own
-        if "material:binding" in names or "material:binding:full" in names:
-            binding = (prim, *binding)
-            self.has_bindings = True
-        elif not self.has_bindings:
+            matrix, resets = self._local(prim)
+        binds = "material:binding" in names or "material:binding:full" in names
+        if not self.has_bindings:
             self.has_bindings = any(name.startswith("material:binding") for name in names)
-        if anchor is None and prim.IsInstance():
-            anchor = path
-        return _Place(matrix, visible, purpose, color, binding, anchor)
+        return _Own(
+            matrix,
+            resets,
+            "visibility" in names and self._value(prim, "visibility") == "invisible",
+            self._value(prim, "purpose") if "purpose" in names else None,
+            self._display_color(prim) if "primvars:displayColor" in names else None,
+            binds,
+            prim.IsInstance(),
+        )
 
     def _value(self, prim: Any, name: str) -> Any:
         return self._read(prim.GetAttribute(name))
@@ -239,25 +363,17 @@ class Walk:
             return usable_color(values.mean(axis=0)) if len(values) else None
         return values.astype(np.float64), str(interpolation)
 
-    def _geometry(self, prim: Any, kind: str, names: frozenset[str], children: Any, own_path: str) -> str:
-        """The key of a shape, which is read if it is new."""
-        key = str(prim.GetPrimInPrototype().GetPath()) if prim.IsInstanceProxy() else own_path
-        if key not in self.geometries:
-            self.geometries[key] = (
-                self._mesh(prim, names, children) if kind == "mesh" else self._shape(prim, kind, own_path)
-            )
-        return key
-
-    def _reason_to_skip(self, kind: str, place: _Place, prim: Any) -> tuple[str, str] | None:
+    def _reason_to_skip(self, kind: str, place: _Place, type_name: str) -> tuple[str, str] | None:
         if kind == "unsupported":
-            return "unsupported-geometry", f"left out: {prim.GetTypeName()} is no mesh; convert it in the source"
+            return "unsupported-geometry", f"left out: {type_name} is no mesh; convert it in the source"
         if place.purpose not in self._purposes:
             return "other-purpose", f"left out: purpose {place.purpose!r}; add it to load.purposes to load it"
         if not place.visible and not self._invisible:
             return "hidden", "left out: hidden in the file; set load.invisible = true to load it"
         return None
 
-    def _mesh(self, prim: Any, names: frozenset[str], children: Any) -> RawMesh:
+    def _mesh(self, prim: Any, predicate: Any) -> RawMesh:
+        names = frozenset(prim.GetAuthoredPropertyNames())
         points, indices = _rows(self._value(prim, "points")), _ints(self._value(prim, "faceVertexIndices"))
         counts = _ints(self._value(prim, "faceVertexCounts"))
         # A polygon of n corners becomes n - 2 triangles; what is damaged takes memory, too.
@@ -271,7 +387,7 @@ class Walk:
             subdivided=self._choice(prim, "subdivisionScheme", names) != "none",
             subsets=tuple(
                 (child.GetName(), _ints(self._value(child, "indices")))
-                for child in children
+                for child in prim.GetFilteredChildren(predicate)
                 if child.GetTypeName() == "GeomSubset" and self._is_material_subset(child)
             ),
         )
@@ -328,7 +444,7 @@ class Walk:
             message = "items without a position, or with a wrong number of orientations or scales, were repaired"
             self._notes.add("invalid-instancer", message, path)
         own = None if isinstance(place.color, tuple) else place.color
-        inherited = replace(place, matrix=_IDENTITY, color=own, anchor=place.anchor or path)
+        inherited = place._replace(matrix=_IDENTITY, color=own, anchor=place.anchor or path)
         prototypes = [
             self._prototype(target, inherited) for target in instancer.GetPrototypesRel().GetForwardedTargets()
         ]
@@ -355,8 +471,7 @@ class Walk:
             skipped = ("hidden", "left out: hidden in the file; set load.invisible = true to load it")
             for part in prototypes[which]:
                 found.append(
-                    replace(
-                        part,
+                    part._replace(
                         path=f"{path}[{item}]{part.path if len(prototypes[which]) > 1 else ''}",
                         matrix=part.matrix @ matrix @ place.matrix,
                         color=part.color if part.color is not None else color,
@@ -397,6 +512,16 @@ class Walk:
             matrices[:, :3, :3] = scales[: len(positions), :, None].astype(np.float64) * matrices[:, :3, :3]
         matrices[:, 3, :3] = positions
         return matrices
+
+
+def _key(prim: Any, path: str) -> str:
+    """By which its shape is known: that of the prototype for what stands below an instance."""
+    return str(prim.GetPrimInPrototype().GetPath()) if prim.IsInstanceProxy() else path
+
+
+def _handed_down(here: _Place, above: _Place) -> _Place:
+    """What the prims below have: of the primvars only constant ones are inherited."""
+    return here._replace(color=above.color) if isinstance(here.color, tuple) else here
 
 
 def _is_sampled(stage: Any) -> bool:
