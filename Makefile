@@ -1,5 +1,5 @@
 # make demo   set up, build the scene graph of a small plant, say what was found
-# make test   set up, run every test
+# make test   set up, run every test; with LEAVE_OUT=long without those that take minutes
 # make test-fast  the quick tests: about ten minutes of one processor
 # make test-physics  the tests in PhysX and Newton, in an environment of their own (Linux on x86; 3 GB, some minutes)
 # make browser  a browser for the tests that need one: the system's Chromium, where it can be had without asking
@@ -36,7 +36,7 @@ demo: $(VENV)/.with-all
 WORKERS := --numprocesses auto --maxprocesses 4 --dist loadfile --no-loadscope-reorder
 
 test: $(VENV)/.with-dev
-	$(BIN)/python -m pytest $(WORKERS)
+	$(BIN)/python -m pytest $(WORKERS) $(if $(LEAVE_OUT),-m "not $(LEAVE_OUT)")
 
 test-fast: $(VENV)/.with-dev
 	$(BIN)/python -m pytest $(WORKERS) -m "not slow"

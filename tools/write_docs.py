@@ -11,6 +11,7 @@ import json
 import re
 import sys
 from collections.abc import Callable, Mapping, Sequence
+from functools import cache
 from pathlib import Path
 
 from typer.testing import CliRunner
@@ -53,6 +54,7 @@ def settings() -> str:
     return "\n".join(lines) + "\n"
 
 
+@cache
 def commands() -> str:
     """The help of every command."""
     add_installed(app)

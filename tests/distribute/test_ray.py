@@ -115,6 +115,7 @@ def test_a_worker_and_a_node_that_are_lost_in_the_middle_change_nothing(cluster,
     assert json.dumps(graph.to_json()) == json.dumps(cadgraph.build(scene).to_json())
 
 
+@pytest.mark.long
 def test_many_scenes_go_to_the_nodes_and_one_that_fails_stops_no_other(cluster, tmp_path):
     (tmp_path / "broken.usda").write_text("nothing of ours")
     scenes = [write_blocks(tmp_path / "blocks.usda"), tmp_path / "broken.usda"]
@@ -133,6 +134,7 @@ def test_a_cluster_that_cannot_do_the_work_is_refused_in_one_line(cluster, tmp_p
         RayHands(cluster.address, tmp_path)
 
 
+@pytest.mark.long
 def test_a_cluster_of_its_own_is_gone_with_the_run(tmp_path, monkeypatch):
     import ray
 

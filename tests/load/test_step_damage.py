@@ -120,6 +120,7 @@ def test_an_error_within_leaves_standard_output_as_it_was(capfd):
 
 @more
 @pytest.mark.slow
+@pytest.mark.long
 def test_no_real_file_is_called_damaged():
     files = sorted(VALVES.parents[1].rglob("*.st*p"))
     assert len(files) > 50

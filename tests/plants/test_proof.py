@@ -48,6 +48,7 @@ def test_the_truth_of_every_hand_holds(style):
 
 
 @pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("preset", ["skid", "riser", "tank"])
 def test_fifty_seeds_hold(preset):
     for seed in range(50):

@@ -7,7 +7,7 @@ import pytest
 import serving
 from browsing import until
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.long]
 NAMES = "() => { const p = cadgraph.store.content.parts; return [p.group, p.name] }"
 
 

@@ -217,6 +217,7 @@ def test_what_could_not_be_sent_is_not_shown_as_corrected(page):
     page.troubles.clear()
 
 
+@pytest.mark.long
 def test_twenty_answers_by_keys_are_kept_undone_redone_and_there_after_a_reload(page, server, folder):
     first, begun, past = labels(page), page.version, len(events_in(folder))
     page.press("r")
