@@ -31,9 +31,11 @@ NO_NODE := the page needs Node 20 or newer with npm to be built or checked: http
 demo: $(VENV)/.with-all
 	$(BIN)/cadgraph demo --output demo
 
-# By file, as what a file's tests share is made once; more workers than that want more memory than a laptop has. In the
-# order of tests/conftest.py, which begins with the longest files.
-WORKERS := --numprocesses auto --maxprocesses 4 --dist loadfile --no-loadscope-reorder
+# By file, as what a file's tests share is made once. One more than processors, as some tests wait for servers and other
+# processes; more than four want more memory than a laptop has. In the order of tests/conftest.py, which begins with the
+# longest files.
+COUNT_WORKERS := import os; print(min(4, 1 + (os.cpu_count() or 1)))
+WORKERS = --numprocesses $(shell $(BIN)/python -c '$(COUNT_WORKERS)') --dist loadfile --no-loadscope-reorder
 
 test: $(VENV)/.with-dev
 	$(BIN)/python -m pytest $(WORKERS) $(if $(LEAVE_OUT),-m "not $(LEAVE_OUT)")

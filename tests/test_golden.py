@@ -12,6 +12,7 @@ from golden_digest import Records, of_components, of_graph
 
 IN_STYLES = ("plant-design", "bim", "game")
 QUICK = {("riser", "plant-design"), ("pumps", "game")}
+LONG = {("field", "bim"), ("field", "game")}
 REAL = Path(__file__).parent / "data"
 FILES = sorted(
     path.relative_to(REAL).as_posix()
@@ -35,6 +36,12 @@ def presets(request):
     return Records("presets", request.config.getoption("--renew-golden"))
 
 
+def marks_of(preset, style):
+    if (preset, style) in QUICK:
+        return []
+    return [pytest.mark.slow, pytest.mark.long] if (preset, style) in LONG else [pytest.mark.slow]
+
+
 def build(source, name, graphs):
     outcome = run(source, "out", report=False)
     graphs.check(name, of_graph(outcome.files["graph"], outcome.files["labels"]))
@@ -43,7 +50,7 @@ def build(source, name, graphs):
 @pytest.mark.parametrize(
     ("preset", "style"),
     [
-        pytest.param(preset, style, marks=[] if (preset, style) in QUICK else [pytest.mark.slow])
+        pytest.param(preset, style, marks=marks_of(preset, style))
         for preset in PRESETS
         for style in IN_STYLES
     ],

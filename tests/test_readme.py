@@ -135,5 +135,6 @@ def test_the_commands_in_the_text_of_the_readme_work(folder):
 
 
 @pytest.mark.slow
+@pytest.mark.long
 def test_the_commands_of_the_guide_work(folder):
     run_all(block for block in blocks(GUIDE) if not block.language)

@@ -51,6 +51,13 @@ def test_one_family_of_each_kind_is_closed_and_labelled():
 
 
 @pytest.mark.slow
+def test_every_family_is_closed_and_labelled():
+    turns = zip(ALL_FAMILIES.values(), cycle(IN_STYLES), strict=False)
+    assert [flaw for family, style in turns for flaw in flaws(family, style, sizes(family)[-1], 1)] == []
+
+
+@pytest.mark.slow
+@pytest.mark.long
 def test_every_family_is_closed_and_labelled_in_every_hand():
     assert [
         flaw
