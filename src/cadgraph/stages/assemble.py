@@ -165,10 +165,12 @@ def _parts(results: Results) -> list[Part]:
     said = [(label, _possible(results, part)) for part, label in enumerate(results.labels)]
     ids = _part_ids(results.parts)
     new = [part for part in range(len(said)) if part not in kept or kept[part][0] != said[part]]
+    round_guesses = _RoundGuesses()
     for start in range(0, len(new), _AT_ONCE):
         some = new[start : start + _AT_ONCE]
         for part, shape in zip(some, _points_of(results, some), strict=True):
-            kept[part] = said[part], _part_of(results, part, ids, shape, *said[part])
+            label, guesses = said[part]
+            kept[part] = said[part], _part_of(results, part, ids, shape, label, round_guesses[tuple(guesses)])
     return [kept[part][1] for part in range(results.parts.n_parts)]
 
 
@@ -188,7 +190,7 @@ def _part_of(
     ids: Sequence[str],
     shape: Sequence[Point],
     label: Label | None,
-    guesses: Sequence[Guess],
+    guesses: tuple[Guess, ...],
 ) -> Part:
     measured, parts = results.parts.properties, results.parts
     centroid, center, low, high, first, second, third, extents = shape
@@ -196,7 +198,7 @@ def _part_of(
         id=ids[part],
         meshes=tuple(results.scene.paths[mesh] for mesh in parts.meshes[part]),
         label=_label(label),
-        guesses=_guesses(guesses),
+        guesses=guesses,
         centroid=centroid,
         aabb=(low, high),
         obb=OrientedBox(center=center, axes=(first, second, third), extents=extents),
@@ -487,11 +489,15 @@ def _findings(results: Results) -> list[Diagnostic]:
     return found
 
 
-def _guesses(guesses: Sequence[Guess]) -> tuple[Guess, ...]:
-    return tuple(
-        g if g.confidence == (rounded := round(g.confidence, 6)) else g.model_copy(update={"confidence": rounded})
-        for g in guesses
-    )
+class _RoundGuesses(dict[tuple[Guess, ...], tuple[Guess, ...]]):
+    """What parts may be, rounded; parts alike, which are many, share it."""
+
+    def __missing__(self, guesses: tuple[Guess, ...]) -> tuple[Guess, ...]:
+        self[guesses] = found = tuple(
+            g if g.confidence == (rounded := round(g.confidence, 6)) else g.model_copy(update={"confidence": rounded})
+            for g in guesses
+        )
+        return found
 
 
 def _possible(results: Results, part: int) -> Sequence[Guess]:
