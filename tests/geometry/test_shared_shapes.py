@@ -1,15 +1,19 @@
 """What is measured on shapes that meshes share is what is measured on each mesh in its place."""
 
-from dataclasses import fields
+from dataclasses import fields, replace
 
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
 import shapes
+from cadgraph.geometry.kernels.tree import build_forest
 from cadgraph.geometry.mesh.properties import measure
+from cadgraph.geometry.occupancy import occupied
 from cadgraph.geometry.shape.repeats import find_shapes
+from cadgraph.model.grid import Grid
 from cadgraph.model.scene import MeshArrays, Placement, Scene
+from cadgraph.stages.preprocess import prepare_scene
 
 SHAPES = [
     shapes.box((0.3, 0.2, 0.1)),
@@ -84,3 +88,35 @@ def test_selecting_and_merging_keep_places():
     np.testing.assert_array_equal(one.faces, two.faces)
     moved = scene.with_vertices(scene.vertices + 1.0)
     np.testing.assert_array_equal(moved.mesh(7)[0], plain.mesh(7)[0] + 1.0)
+
+
+def test_what_needs_all_meshes_in_place_once_does_not_leave_them_with_the_scene():
+    scene, plain = placed(), flat(placed())
+    trees, others = build_forest(scene), build_forest(plain)
+    np.testing.assert_array_equal(trees.vertices, others.vertices)
+    np.testing.assert_array_equal(trees.faces, others.faces)
+    grid, all_meshes = Grid((-4.0, -4.0), 0.1, (80, 80)), np.arange(scene.n_meshes)
+    found = occupied(scene, all_meshes, -1.0, 1.0, grid)
+    np.testing.assert_array_equal(found, occupied(plain, all_meshes, -1.0, 1.0, grid))
+    assert found.any()
+    prepared, told = prepare_scene(scene)
+    assert told == ()
+    assert prepared.placement is not None
+    for each in (scene, prepared):
+        assert not {"vertices", "faces"} & each.__dict__.keys()
+    np.testing.assert_array_equal(scene.placed()[0], scene.vertices)
+    assert scene.placed()[0] is scene.vertices
+
+
+def test_a_shape_that_is_spoilt_is_found_in_every_place():
+    scene = placed(8)
+    spoilt = scene.shapes.vertices.copy()
+    spoilt[3] = np.nan
+    arrays = replace(scene.shapes, vertices=spoilt)
+    told = {one.code: one.meshes for one in prepare_scene(replace(scene, shapes=arrays))[1]}
+    boxes = np.flatnonzero(scene.placement.shape == 0)
+    assert told["nonfinite-vertices"] == tuple(scene.paths[i] for i in boxes)
+    faces = scene.shapes.faces.copy()
+    faces[0, 0] = 1000
+    with pytest.raises(ValueError, match=f"{scene.paths[boxes[0]]}: a face refers to a vertex"):
+        prepare_scene(replace(scene, shapes=replace(scene.shapes, faces=faces)))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from cadgraph.geometry.kernels.borrow import borrow
@@ -12,6 +14,7 @@ from cadgraph.model.scene import Faces, Floats, Ints, Scene
 
 __all__ = ["occupied"]
 
+_PLACED = 4096  # meshes that are placed at a time
 _MOST = 8  # corners of a triangle that is cut at two heights: five at most, and room for both passes
 
 
@@ -30,12 +33,24 @@ def occupied(scene: Scene, meshes: Ints, low: float, high: float, grid: Grid) ->
     """
     columns, rows = grid.size
     found = np.zeros((rows, columns), np.bool_)
-    _fill(
-        readable(scene.vertices, np.float64), readable(scene.faces, np.int32),
-        readable(scene.vertex_offsets, np.int64), readable(scene.face_offsets, np.int64), readable(meshes, np.int64),
-        round(float(low), 6), round(float(high), 6), grid.origin[0], grid.origin[1], 1.0 / grid.step, found,
-    )  # fmt: skip
+    for part, numbers in _in_place(scene, meshes):
+        vertices, faces = part.placed()
+        _fill(
+            readable(vertices, np.float64), readable(faces, np.int32), readable(part.vertex_offsets, np.int64),
+            readable(part.face_offsets, np.int64), readable(numbers, np.int64), round(float(low), 6),
+            round(float(high), 6), grid.origin[0], grid.origin[1], 1.0 / grid.step, found,
+        )  # fmt: skip
     return found
+
+
+def _in_place(scene: Scene, meshes: Ints) -> Iterator[tuple[Scene, Ints]]:
+    """Scenes that hold the meshes, and their numbers there; where shapes are shared, so few that they can be placed."""
+    if scene.placement is None:
+        yield scene, meshes
+        return
+    for start in range(0, len(meshes), _PLACED):
+        some = meshes[start : start + _PLACED]
+        yield scene.select(some), np.arange(len(some))
 
 
 @compiled

@@ -8,7 +8,7 @@ import numpy as np
 
 from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.parts import Bools
-from cadgraph.model.scene import MeshArrays, Scene, mesh_of_face, mesh_of_vertex
+from cadgraph.model.scene import Faces, Ints, MeshArrays, Scene, mesh_of_face, mesh_of_vertex
 
 __all__ = ["prepare_scene"]
 
@@ -26,8 +26,9 @@ def prepare_scene(scene: Scene) -> tuple[Scene, tuple[Diagnostic, ...]]:
         ValueError: a face refers to a vertex that its mesh doesn't have.
     """
     scene = scene.in_path_order()
-    n_vertices = np.diff(scene.vertex_offsets)[mesh_of_face(scene)]
-    bad = ((scene.faces < 0) | (scene.faces >= n_vertices[:, None])).any(axis=1)
+    if _is_sound(scene):
+        return scene, ()
+    bad = _has_strange_corners(scene.faces, scene.vertex_offsets, scene.face_offsets)
     if bad.any():
         path = scene.paths[int(mesh_of_face(scene)[bad][0])]
         raise ValueError(f"{path}: a face refers to a vertex that the mesh doesn't have")
@@ -44,6 +45,23 @@ def prepare_scene(scene: Scene) -> tuple[Scene, tuple[Diagnostic, ...]]:
         diagnostics.append(Diagnostic("empty-mesh", "meshes without a finite vertex were left out", paths))
         scene = scene.select(np.flatnonzero(~empty))
     return scene, tuple(diagnostics)
+
+
+def _is_sound(scene: Scene) -> bool:
+    """Whether nothing has to be taken out, by the shapes, without placing each mesh that has one."""
+    shapes, placement = scene.shapes, scene.placement
+    return bool(
+        (np.diff(scene.vertex_offsets) > 0).all()
+        and np.isfinite(shapes.vertices).all()
+        and (placement is None or (np.isfinite(placement.turn).all() and np.isfinite(placement.shift).all()))
+        and not _has_strange_corners(shapes.faces, shapes.vertex_offsets, shapes.face_offsets).any()
+    )
+
+
+def _has_strange_corners(faces: Faces, vertex_offsets: Ints, face_offsets: Ints) -> Bools:
+    """``(n_faces,)`` whether a face refers to a vertex that its mesh doesn't have."""
+    n_vertices = np.repeat(np.diff(vertex_offsets), np.diff(face_offsets))
+    return np.asarray(((faces < 0) | (faces >= n_vertices[:, None])).any(axis=1))
 
 
 def _keep_vertices(scene: Scene, keep: Bools) -> Scene:

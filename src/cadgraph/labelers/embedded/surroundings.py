@@ -115,8 +115,7 @@ def _hulls(parts: Parts, known: ShapeAnalysis) -> _Hulls:
     half, radius = np.full(n, 1e-5), np.full(n, 1e-5)
     scene = parts.scene
     for k, mesh in enumerate(known.first.tolist()):
-        corners = scene.vertices[int(scene.vertex_offsets[mesh]) : int(scene.vertex_offsets[mesh + 1])]
-        apart = corners - properties.centroid[k]
+        apart = scene.mesh(mesh)[0] - properties.centroid[k]
         apart = apart[np.isfinite(apart).all(axis=1)]
         if len(apart):
             along = apart @ axis[k]
