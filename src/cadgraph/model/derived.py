@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import wraps
-from threading import Lock
 from typing import Any, ParamSpec, TypeVar
-from weakref import WeakKeyDictionary
 
 __all__ = ["kept_with", "store_of"]
 
-_STORES: WeakKeyDictionary[Any, dict[Any, dict[Any, Any]]] = WeakKeyDictionary()
+# In the value itself: what is kept often leads back to the value, and a table of it would keep both for ever.
+_KEPT = "_derived"
 _P = ParamSpec("_P")
 _R = TypeVar("_R")
 
@@ -25,16 +24,13 @@ def kept_with(function: Callable[_P, _R]) -> Callable[_P, _R]:
     Args:
         function: takes its arguments by position.
     """
-    kept: WeakKeyDictionary[Any, list[tuple[tuple[Any, ...], _R]]] = WeakKeyDictionary()
-    lock = Lock()
 
     @wraps(function)
     def once(*args: _P.args, **kwargs: _P.kwargs) -> _R:
         if kwargs:
             return function(*args, **kwargs)
         first, rest = args[0], args[1:]
-        with lock:
-            known = kept.setdefault(first, [])
+        known: list[tuple[tuple[Any, ...], _R]] = _kept(first).setdefault(once, [])
         for others, result in known:
             if len(others) == len(rest) and all(a is b for a, b in zip(others, rest, strict=True)):
                 return result
@@ -52,4 +48,10 @@ def store_of(value: object, *name: object) -> dict[Any, Any]:
         value: frozen, compared by identity; what is kept is thrown away with it.
         name: what is kept there, and the settings that it depends on.
     """
-    return _STORES.setdefault(value, {}).setdefault(name, {})
+    found: dict[Any, Any] = _kept(value).setdefault(name, {})
+    return found
+
+
+def _kept(value: object) -> dict[Any, Any]:
+    found: dict[Any, Any] = vars(value).setdefault(_KEPT, {})
+    return found

@@ -176,7 +176,7 @@ class Plant:
         folder, config = self._order.folder, self._order.config or Config()
         clock = Clock(self._progress)
         session = begin(source, folder, config, progress=clock, keep=True)
-        write_results(session, source, folder, False, clock)
+        write_results(session.analysis.scene, session.make_graph(clock), source, folder, None, clock)
         self._see(session.graph, session.analysis.scene)
         self._source = source
         self._begin(session)

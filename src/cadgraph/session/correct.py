@@ -180,8 +180,8 @@ def _changed(
         with new_results(target) as new:
             session = reopen(before, target, source, config, former, clock, keep=True)
             done = change(session)
-            session.make_graph(clock)
+            seen, graph = session.analysis.scene, session.make_graph(clock)
             clock("write graph", 0)
-            stage_graph(session.analysis.scene, session.graph, source, target)
-            outcome = write_rest(session, target, new, report, clock)
+            stage_graph(seen, graph, source, target)
+            outcome = write_rest(seen, graph, target, new, config.report if report else None, clock)
     return Amendment(outcome, done.part, changed_parts(before, outcome.graph), done.message, session.lost)

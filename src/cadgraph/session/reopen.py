@@ -61,7 +61,8 @@ def relabel(
         if isinstance(labeler, AskingLabeler) and labeler.only_asks:
             clock("", 1)
             return Outcome(graph, {}, clock.seconds)
-        return write_results(session, source, target, report, clock)
+        after = session.make_graph(clock)
+        return write_results(session.analysis.scene, after, source, target, config.report if report else None, clock)
 
 
 def reopen(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import json
 import time
 from collections.abc import Sequence
@@ -13,7 +14,7 @@ from cadgraph._io.manifest import of_an_earlier_graph
 from cadgraph._io.progress import Progress, quiet
 from cadgraph._io.results import NewResults, new_results
 from cadgraph._io.run_folder import refuse_to_overwrite, results_folder
-from cadgraph.config import Config
+from cadgraph.config import Config, ReportConfig
 from cadgraph.distribute.site import crew_for
 from cadgraph.labelers.base import AskingLabeler, Labeler
 from cadgraph.load import load
@@ -40,6 +41,8 @@ __all__ = [
 
 _OF_ITS_GRAPH = ("scene.usdc", "simulation.usda", "devices.json")
 """Results that are of no use beside another graph. A report stays readable."""
+
+_MANY = 10_000  # meshes from which on memory is made free between the analysis and what is written
 
 RUN_STAGES = ("read", *STAGES, "write graph", "write labels", "draw report")
 """The names that ``run`` gives to its progress, in order."""
@@ -120,7 +123,9 @@ def run(
         if isinstance(labeler, AskingLabeler) and labeler.only_asks and (target / "graph.json").exists():
             clock("", 1)
             return Outcome(SceneGraph.load(target), {}, clock.seconds)
-        return write_results(session, source, target, report, clock)
+        scene, graph = session.analysis.scene, session.make_graph(clock)
+        del session
+        return write_results(scene, graph, source, target, config.report if report else None, clock)
 
 
 def begin(
@@ -173,52 +178,59 @@ def begin(
     )
 
 
-def write_results(session: Session, source: str | Path, target: Path, report: bool, clock: Clock) -> Outcome:
-    """Writes the graph of a session and what goes with it into a folder, over the results of an earlier run.
+def write_results(
+    scene: Scene, graph: SceneGraph, source: str | Path, target: Path, report: ReportConfig | None, clock: Clock
+) -> Outcome:
+    """Writes a graph and what goes with it into a folder, over the results of an earlier run.
 
     Args:
-        session: whose graph it is.
+        scene: all meshes that the graph is of.
+        graph: finished.
         source: the scene's file.
         target: the folder; it exists.
-        report: whether to draw pictures and write the report.
+        report: how to draw pictures and write the report; None: not at all.
         clock: takes the time of each stage.
 
     Raises:
         OutputError: a file can't be written.
     """
-    graph = session.make_graph(clock)
     there = [name for name in _OF_ITS_GRAPH if (target / name).exists()]
+    if scene.n_meshes > _MANY:
+        # What the stages have found and nobody holds any more leads back to itself in many places.
+        gc.collect()
     with new_results(target, dropped=_OF_ITS_GRAPH) as new:
         clock("write graph", 0)
-        stage_graph(session.analysis.scene, graph, source, target, clock)
-        outcome = write_rest(session, target, new, report, clock)
+        stage_graph(scene, graph, source, target, clock)
+        outcome = write_rest(scene, graph, target, new, report, clock)
     return replace(outcome, removed=tuple(name for name in there if not (target / name).exists()))
 
 
-def write_rest(session: Session, target: Path, new: NewResults, report: bool, clock: Clock) -> Outcome:
+def write_rest(
+    scene: Scene, graph: SceneGraph, target: Path, new: NewResults, report: ReportConfig | None, clock: Clock
+) -> Outcome:
     """Writes what is made from a graph: the report, and how long everything took; then all of it comes to its place.
 
     Where the report fails, or somebody stops it, the graph comes all the same.
 
     Args:
-        session: whose graph it is.
+        scene: all meshes that the graph is of.
+        graph: finished.
         target: the folder.
         new: what is coming into it; with the graph.
-        report: whether to draw pictures and write the report; that of an earlier graph says else that it is one.
+        report: how to draw pictures and write the report; None: that of an earlier graph says that it is one.
         clock: takes the time of each stage.
 
     Raises:
         OutputError: a file can't be written.
     """
-    graph = session.graph
     files = {"graph": target / "graph.json", "labels": target / "semantics.usda"}
-    if report:
+    if report is not None:
         from cadgraph.draw.report import write_report
 
         clock("draw report", 0)
         report_file = target / "report.html"
         try:
-            files["report"] = write_report(session.analysis.scene, graph, report_file, session.config.report, clock)
+            files["report"] = write_report(scene, graph, report_file, report, clock)
         except BaseException as stop:
             _keep_report(target, new)
             new.commit()

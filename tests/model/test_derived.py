@@ -1,0 +1,46 @@
+import gc
+import weakref
+from dataclasses import dataclass
+
+from cadgraph.model.derived import kept_with, store_of
+
+
+@dataclass(frozen=True, eq=False)
+class Value:
+    number: int
+
+
+def test_the_same_objects_give_the_same_result_without_work():
+    calls = []
+
+    @kept_with
+    def double(value, other):
+        calls.append(value.number)
+        return [value.number, other]
+
+    one, other, thing = Value(1), Value(2), object()
+    assert double(one, thing) is double(one, thing)
+    assert double(other, thing) == [2, thing]
+    assert double(one, object()) is not double(one, thing)
+    assert calls == [1, 2, 1]
+
+
+def test_stores_of_one_value_are_told_apart_by_name():
+    value = Value(1)
+    store_of(value, "lines", 3)["a"] = 1
+    assert store_of(value, "lines", 3) == {"a": 1}
+    assert store_of(value, "lines", 4) == store_of(Value(1), "lines", 3) == {}
+
+
+def test_what_leads_back_to_the_value_goes_with_it():
+    @kept_with
+    def of(value):
+        return [value]
+
+    value = Value(1)
+    seen = weakref.ref(value)
+    of(value)
+    store_of(value, "others")["itself"] = value
+    del value
+    gc.collect()
+    assert seen() is None
