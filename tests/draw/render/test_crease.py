@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -5,7 +7,7 @@ from hypothesis import strategies as st
 
 import shapes
 from cadgraph.draw.render.crease import CornerNormals, corner_normals
-from cadgraph.model.scene import Scene
+from cadgraph.model.scene import Placement, Scene
 
 
 def radial_error(normals, vertices, faces):
@@ -77,5 +79,37 @@ def test_lazy_normals_agree_with_those_of_each_mesh():
     lazy = CornerNormals(scene)
     for index in (1, 2, 0, 1):
         first, last = scene.face_offsets[index : index + 2]
-        found = lazy.ready(np.array([index]))[first:last]
+        found = lazy.ready(np.array([index])).corners[first:last]
         np.testing.assert_array_equal(found, corner_normals(*meshes[index]))
+
+
+def turned(normals, mesh, scene):
+    """The normals of a mesh as they lie in the scene."""
+    first, last = scene.face_offsets[mesh : mesh + 2] + normals.shift[mesh]
+    return normals.corners[first:last] @ (normals.turn[mesh] if len(normals.turn) else np.eye(3))
+
+
+def test_meshes_that_share_a_shape_share_its_normals():
+    vertices, faces = shapes.cylinder()
+    turn, _ = np.linalg.qr(np.random.default_rng(0).normal(size=(3, 3)))
+    turn *= np.sign(np.linalg.det(turn))
+    once = Scene.from_meshes([shapes.box(), (vertices, faces)])
+    placement = Placement(np.array([1, 0, 1]), np.array([np.eye(3), turn, turn]), np.arange(9.0).reshape(3, 3))
+    scene = replace(once, paths=("/a", "/b", "/c"), colors=np.zeros((3, 3), np.float32), placement=placement)
+    lazy = CornerNormals(scene)
+    normals = lazy.ready(np.array([2, 1]))
+    assert len(normals.corners) == len(once.faces)
+    for mesh in range(3):
+        np.testing.assert_allclose(turned(normals, mesh, scene), corner_normals(*scene.mesh(mesh)), atol=1e-6)
+    elsewhere = scene.with_vertices(scene.vertices[:, [1, 2, 0]])
+    kept = np.concatenate([scene.mesh(0)[0], elsewhere.mesh(1)[0], scene.mesh(2)[0]])
+    moved = scene.with_vertices(kept)
+    normals = lazy.moved(moved, np.array([1])).ready(np.arange(3))
+    for mesh in range(3):
+        np.testing.assert_allclose(turned(normals, mesh, moved), corner_normals(*moved.mesh(mesh)), atol=1e-6)
+
+
+def test_a_plane_of_its_own_has_its_normal():
+    scene = Scene.from_meshes([shapes.box()])
+    with_cut = CornerNormals(scene).ready(np.zeros(1, int)).with_plane((0, 0, 1), scene.n_triangles)
+    np.testing.assert_array_equal(with_cut.corners[scene.n_triangles + with_cut.shift[1]], np.tile([0, 0, 1], (3, 1)))

@@ -5,15 +5,16 @@ from __future__ import annotations
 import math
 import threading
 from concurrent.futures import ThreadPoolExecutor
-from typing import Any
+from copy import copy
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
 from cadgraph.geometry.kernels.parallel import ZERO, compiled, readable
-from cadgraph.model.scene import Scene
+from cadgraph.model.scene import Ints, MeshArrays, Scene
 
-__all__ = ["CREASE_ANGLE", "CornerNormals", "corner_normals"]
+__all__ = ["CREASE_ANGLE", "CornerNormals", "Normals", "corner_normals"]
 
 Singles = npt.NDArray[np.float32]
 
@@ -152,8 +153,31 @@ def _mean_normal(
     result[own, corner % 3, 0], result[own, corner % 3, 1], result[own, corner % 3, 2] = x, y, z
 
 
+class Normals(NamedTuple):
+    """Corner normals of a scene's faces; arguments of compiled kernels.
+
+    Args:
+        corners: ``(k, 3, 3)`` float32 unit, of the faces of each shape once.
+        shift: ``(n_meshes,)`` int64; those of face ``f`` of mesh ``m`` are in row ``f + shift[m]``.
+        turn: ``(n_meshes, 3, 3)`` float32, for row vectors, from the shape to the mesh; empty where none is turned.
+    """
+
+    corners: Singles
+    shift: Ints
+    turn: Singles
+
+    def with_plane(self, normal: npt.ArrayLike, face: int) -> Normals:
+        """With one more mesh, of a single plane face of this number and normal ``(3,)``."""
+        plane = np.broadcast_to(np.asarray(normal, np.float32), (1, 3, 3))
+        return Normals(
+            np.concatenate([self.corners, plane]),
+            np.append(self.shift, len(self.corners) - face),
+            np.concatenate([self.turn, np.eye(3, dtype=np.float32)[None]]) if len(self.turn) else self.turn,
+        )
+
+
 class CornerNormals:
-    """The corner normals of a scene, worked out mesh by mesh when a picture first shows them. Safe for threads.
+    """The corner normals of a scene, worked out shape by shape when a picture first shows it. Safe for threads.
 
     Args:
         scene: the scene.
@@ -161,41 +185,64 @@ class CornerNormals:
     """
 
     def __init__(self, scene: Scene, threads: int = 1) -> None:
-        self._scene = scene
         self._threads = threads
-        self._ready = np.zeros(scene.n_meshes, bool)
-        self._normals = np.zeros((scene.n_triangles, 3, 3), np.float32)
         self._lock = threading.Lock()
+        self._shapes = scene.shapes
+        placement = scene.placement
+        self._shape = np.arange(scene.n_meshes) if placement is None else placement.shape
+        turn = np.zeros((0, 3, 3), np.float32) if placement is None else placement.turn.astype(np.float32)
+        self._ready = np.zeros(self._shapes.n, bool)
+        corners = np.zeros((len(self._shapes.faces), 3, 3), np.float32)
+        shift = self._shapes.face_offsets[:-1][self._shape] - scene.face_offsets[:-1]
+        self._normals = Normals(corners, shift, turn)
 
-    def moved(self, scene: Scene, meshes: npt.NDArray[np.int64]) -> CornerNormals:
-        """Those of the same scene with some meshes elsewhere; what was worked out of the others is kept."""
-        other = CornerNormals(scene, self._threads)
+    def moved(self, scene: Scene, meshes: Ints) -> CornerNormals:
+        """Those of the same scene with some meshes elsewhere; what was worked out of the others is kept.
+
+        Args:
+            scene: the same meshes in the same order.
+            meshes: ``(n,)`` those that may lie elsewhere, ascending.
+        """
+        other = copy(self)
+        other._lock = threading.Lock()
+        # What moved is a shape of its own, as it lies now.
+        own, n_meshes = MeshArrays.of([scene.mesh(mesh) for mesh in meshes.tolist()]), scene.n_meshes
+        rows = np.diff(own.face_offsets)
+        other._shapes = self._shapes.joined(own)
+        other._shape = self._shape.copy()
+        other._shape[meshes] = self._shapes.n + np.arange(len(meshes))
         with self._lock:
-            other._ready, other._normals = self._ready.copy(), self._normals.copy()
-        other._ready[meshes] = False
+            other._ready = np.concatenate([self._ready, np.zeros(len(meshes), bool)])
+            known = self._normals
+            corners = np.concatenate([known.corners, np.zeros((int(rows.sum()), 3, 3), np.float32)])
+        shift, turn = known.shift.copy(), known.turn.copy()
+        shift[meshes] = len(known.corners) + own.face_offsets[:-1] - scene.face_offsets[:-1][meshes]
+        if len(turn) == n_meshes:
+            turn[meshes] = np.eye(3)
+        other._normals = Normals(corners, shift, turn)
         return other
 
-    def ready(self, meshes: npt.NDArray[np.integer[Any]]) -> Singles:
-        """``(n_faces, 3, 3)`` the normals of the whole scene, worked out for these meshes at least; not to be changed.
+    def ready(self, meshes: npt.NDArray[np.integer[Any]]) -> Normals:
+        """The normals of the whole scene, worked out for these meshes at least; not to be changed.
 
         Args:
             meshes: ``(n,)`` indices, in any order, repeated at will.
         """
         shown = np.zeros(len(self._ready), bool)
-        shown[meshes] = True
+        shown[self._shape[meshes]] = True
         if (shown & ~self._ready).any():
             with self._lock:
                 self._work_out(np.flatnonzero(shown & ~self._ready))
         return self._normals
 
-    def _work_out(self, meshes: npt.NDArray[np.int64]) -> None:
-        counts = np.diff(self._scene.face_offsets)[meshes]
-        tasks = np.split(meshes, np.flatnonzero(np.diff(np.cumsum(counts) // _FACES_AT_ONCE)) + 1)
+    def _work_out(self, shapes: Ints) -> None:
+        offsets = self._shapes.face_offsets
+        tasks = np.split(shapes, np.flatnonzero(np.diff(np.cumsum(np.diff(offsets)[shapes]) // _FACES_AT_ONCE)) + 1)
 
-        def work_out(chosen: npt.NDArray[np.int64]) -> None:
-            for mesh in chosen.tolist():
-                first, last = self._scene.face_offsets[mesh : mesh + 2]
-                self._normals[first:last] = corner_normals(*self._scene.mesh(mesh))
+        def work_out(chosen: Ints) -> None:
+            for shape in chosen.tolist():
+                first, last = offsets[shape : shape + 2]
+                self._normals.corners[first:last] = corner_normals(*self._shapes.mesh(shape))
 
         if self._threads == 1 or len(tasks) == 1:
             for task in tasks:
@@ -203,4 +250,4 @@ class CornerNormals:
         else:
             with ThreadPoolExecutor(self._threads) as pool:
                 list(pool.map(work_out, tasks))
-        self._ready[meshes] = True
+        self._ready[shapes] = True

@@ -250,8 +250,7 @@ class _Alone:
     def surfaces(self, camera: Camera, cut: Floats | None = None) -> Surfaces:
         normals = self._normals.ready(np.zeros(1, np.int64))
         if cut is not None:
-            face = np.broadcast_to(np.asarray(cut[:3], np.float32), (1, 3, 3))
-            normals = np.concatenate([normals, face])
+            normals = normals.with_plane(cut[:3], len(self.facets.faces))
         return _surfaces(Viewport.whole(camera), self.facets, lambda _: normals, np.zeros(1, bool), Favour(), cut)
 
 

@@ -17,6 +17,7 @@ import numpy.typing as npt
 
 from cadgraph.draw.render.camera import Camera
 from cadgraph.draw.render.caster import Hits
+from cadgraph.draw.render.crease import Normals
 from cadgraph.geometry.kernels.parallel import compiled
 
 __all__ = ["Surfaces", "Viewport", "covered", "in_chunks", "meet"]
@@ -102,7 +103,7 @@ def in_chunks(count: int, act: Callable[[int, int], object], threads: int, chunk
 
 def meet(
     port: Viewport, cast: Callable[[Singles, npt.NDArray[np.int64], int], Hits], mesh_of_face: Indices,
-    normals: Callable[[Indices], Singles], samples: int, lit: bool, threads: int,
+    normals: Callable[[Indices], Normals], samples: int, lit: bool, threads: int,
 ) -> Surfaces:  # fmt: skip
     """Finds what the rays of a picture meet.
 
@@ -111,7 +112,7 @@ def meet(
         cast: what rays from the eye in given unit directions ``(n, 3)`` meet; handed besides the pixels ``(k,)`` that
             they go through, and how many along each side of one.
         mesh_of_face: ``(n_faces,)`` mesh of each of the scene's faces.
-        normals: gives the corner normals ``(n_faces, 3, 3)``, worked out at least for the meshes that it is handed.
+        normals: gives the corner normals, worked out at least for the meshes that it is handed.
         samples: rays along each side of a pixel where neighbours differ.
         lit: whether the normals of the triangles themselves are wanted, to cast rays to the light from.
         threads: that share the work.
@@ -128,9 +129,9 @@ def meet(
             towards = np.empty(((last - first) * each, 3), np.float32)
             _aim(axes, view, pixels[first:last], width, side, towards)
             hits = cast(towards, pixels[first:last], side)
-            corners = normals(mesh_of_face[hits.face[hits.face >= 0]])
+            known = normals(mesh_of_face[hits.face[hits.face >= 0]])
             cut = slice(first * each, last * each)
-            _resolve(axes, towards, *hits, mesh_of_face, corners, mesh[cut], normal[cut], depth[cut], flat[cut])
+            _resolve(axes, towards, *hits, mesh_of_face, *known, mesh[cut], normal[cut], depth[cut], flat[cut])
 
         in_chunks(len(pixels), some, threads, _CHUNK // each)
         return mesh, normal, depth
@@ -181,7 +182,7 @@ def _aim(axes: Any, view: Any, pixels: Any, width: int, side: int, towards: Any)
 @compiled
 def _resolve(
     axes: Any, towards: Any, face: Any, u: Any, v: Any, distance: Any, across: Any, mesh_of_face: Any, corners: Any,
-    mesh: Any, normal: Any, depth: Any, flat: Any,
+    shift: Any, turn: Any, mesh: Any, normal: Any, depth: Any, flat: Any,
 ) -> None:  # fmt: skip
     """Writes what rays met: mesh, smooth normal in the camera's axes, depth, and the triangle's normal if asked for."""
     for k in range(len(face)):
@@ -193,9 +194,17 @@ def _resolve(
             continue
         a, b = u[k], v[k]
         w = 1.0 - a - b
-        x = corners[f, 0, 0] * w + corners[f, 1, 0] * a + corners[f, 2, 0] * b
-        y = corners[f, 0, 1] * w + corners[f, 1, 1] * a + corners[f, 2, 1] * b
-        z = corners[f, 0, 2] * w + corners[f, 1, 2] * a + corners[f, 2, 2] * b
+        m = mesh_of_face[f]
+        at = f + shift[m]
+        x = corners[at, 0, 0] * w + corners[at, 1, 0] * a + corners[at, 2, 0] * b
+        y = corners[at, 0, 1] * w + corners[at, 1, 1] * a + corners[at, 2, 1] * b
+        z = corners[at, 0, 2] * w + corners[at, 1, 2] * a + corners[at, 2, 2] * b
+        if len(turn):
+            x, y, z = (
+                x * turn[m, 0, 0] + y * turn[m, 1, 0] + z * turn[m, 2, 0],
+                x * turn[m, 0, 1] + y * turn[m, 1, 1] + z * turn[m, 2, 1],
+                x * turn[m, 0, 2] + y * turn[m, 1, 2] + z * turn[m, 2, 2],
+            )
         long = np.sqrt(x * x + y * y + z * z)
         p, q, r = across[k, 0], across[k, 1], across[k, 2]
         scale = 1.0 / max(np.sqrt(p * p + q * q + r * r), 1e-30)
@@ -206,7 +215,7 @@ def _resolve(
             x, y, z, long = p, q, r, 1.0
         # On the side of the triangle that is seen: the smooth normal itself may point away near an outline.
         scale = (1.0 if p * x + q * y + r * z >= 0 else -1.0) / long
-        mesh[k] = mesh_of_face[f]
+        mesh[k] = m
         ahead = 0.0
         for i in range(3):
             normal[k, i] = (x * axes[i, 0] + y * axes[i, 1] + z * axes[i, 2]) * scale
