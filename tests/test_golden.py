@@ -49,11 +49,7 @@ def build(source, name, graphs):
 
 @pytest.mark.parametrize(
     ("preset", "style"),
-    [
-        pytest.param(preset, style, marks=marks_of(preset, style))
-        for preset in PRESETS
-        for style in IN_STYLES
-    ],
+    [pytest.param(preset, style, marks=marks_of(preset, style)) for preset in PRESETS for style in IN_STYLES],
 )
 def test_graphs_of_generated_plants_stay_as_they_are(preset, style, graphs, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)

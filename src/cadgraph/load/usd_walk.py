@@ -285,9 +285,7 @@ class Walk:
         skipped = self._reason_to_skip(kind, here, type_name)
         if not skipped and key not in self.geometries:
             prim = self._stage.GetPrimAtPath(own_path)
-            self.geometries[key] = (
-                self._mesh(prim, predicate) if kind == "mesh" else self._shape(prim, kind, own_path)
-            )
+            self.geometries[key] = self._mesh(prim, predicate) if kind == "mesh" else self._shape(prim, kind, own_path)
         return Placement(
             path, own_path, None if skipped else key, here.matrix, here.color, here.binding, here.anchor, skipped
         )
