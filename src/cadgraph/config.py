@@ -318,7 +318,9 @@ class RelateConfig(Section):
 class ReportConfig(Section):
     """The pictures and the page."""
 
-    width: int = _setting(1280, "width of a picture [px]", ge=64, le=8192)
+    width: int = _setting(
+        1280, "width of a picture [px]; those that stand side by side have three quarters of it", ge=64, le=8192
+    )
     height: int = _setting(800, "height of a picture [px]", ge=64, le=8192)
     samples: int = _setting(3, "anti-aliasing: rays along each side of a pixel", ge=1, le=8)
     max_systems: int = _setting(12, "at most so many structures with pipes are drawn, the largest first", ge=0, le=1000)

@@ -38,7 +38,7 @@ _MARGIN = 0.07
 _END = "#5b6470"  # of junctions and ends of runs
 _NEARLY_ALL = 0.7
 _LEAD = 0.45  # of a line's width: from a line to the ball of what stands at it
-_SIDE_BY_SIDE = 1.6  # letters of pictures that the page shows at about half their size
+_SIDE_BY_SIDE, _LETTERS = 0.75, 1.2  # size of pictures that the page shows at half its width, and of their letters
 
 
 @dataclass(frozen=True)
@@ -152,11 +152,11 @@ def draw_pictures(scene: Scene, graph: SceneGraph, config: ReportConfig, progres
     ]
     structures = largest_first(graph.clusters("pipe system"))[: config.max_systems]
     # The page shows a single one over its whole width, several side by side.
-    size = 1.0 if len(structures) == 1 else _SIDE_BY_SIDE
+    size, letters = (1.0, 1.0) if len(structures) == 1 else (_SIDE_BY_SIDE, _LETTERS)
 
     def draw(number: int) -> Picture | None:
         cluster = structures[number]
-        return _structure(ready, cluster, f"Structure {number + 1}: {cluster.id}", camera, size)
+        return _structure(ready, cluster, f"Structure {number + 1}: {cluster.id}", camera, size, letters)
 
     with ThreadPoolExecutor(_AT_ONCE) as pool:
         for number, picture in enumerate(pool.map(draw, range(len(structures))), 1):
@@ -252,7 +252,9 @@ def _by_cluster(ready: _Ready, camera: Camera, image: Image.Image, others: bool)
     )  # fmt: skip
 
 
-def _structure(ready: _Ready, cluster: Cluster, title: str, overview: Camera, size: float) -> Picture | None:
+def _structure(
+    ready: _Ready, cluster: Cluster, title: str, overview: Camera, size: float, letters: float
+) -> Picture | None:
     graph, renderer = ready.graph, ready.renderer
     members = {part.id for part in graph.parts(cluster=cluster.id)}
     inside = ready.meshes_of(members)
@@ -264,10 +266,11 @@ def _structure(ready: _Ready, cluster: Cluster, title: str, overview: Camera, si
     # A structure that is nearly everything would look as in the overview: it is shown from the other side.
     unlike = -overview.forward if len(meshes) > _NEARLY_ALL * ready.scene.n_meshes else None
     aspect = ready.config.width / ready.config.height
-    camera = _camera(ready, meshes, three_quarter_view(renderer, meshes, alone=True, aspect=aspect, unlike=unlike))
+    direction = three_quarter_view(renderer, meshes, alone=True, aspect=aspect, unlike=unlike)
+    camera = _camera(ready, meshes, direction, size)
     image = renderer.picture(camera, Paint(paint, hatched, ghosted=~inside), _grounded(ready, meshes))
     open_ends = [end for end in ends if end.kind != "blind"]
-    image, tagged = _related(ready, image, camera, units, edges, size, open_ends)
+    image, tagged = _related(ready, image, camera, units, edges, letters, open_ends)
     untagged = _untagged(len(units) + len(open_ends), tagged)
     contents = _contents(cluster, units, edges)
     extent = " × ".join(f"{high - low:.2f}" for low, high in zip(*cluster.aabb, strict=True))
@@ -326,7 +329,7 @@ def _untagged(wanted: int, tagged: int) -> str:
 
 def _related(
     ready: _Ready, image: Image.Image, camera: Camera, units: Sequence[Unit], edges: Sequence[Edge],
-    size: float = 1.0, open_ends: Sequence[Terminal] = (),
+    letters: float = 1.0, open_ends: Sequence[Terminal] = (),
 ) -> Annotated:  # fmt: skip
     """Draws units, connections and open ends over a picture."""
     crowded = len(units) > _CROWDED
@@ -344,7 +347,13 @@ def _related(
     ]
     tags += [Tag(_local(ready, end.point), end.id, _END) for end in open_ends]
     return annotate(
-        image, camera, segments=segments, marks=marks, tags=tags, size=size, clutter=_CLUTTER if crowded else math.inf
+        image,
+        camera,
+        segments=segments,
+        marks=marks,
+        tags=tags,
+        size=letters,
+        clutter=_CLUTTER if crowded else math.inf,
     )
 
 
@@ -385,9 +394,12 @@ def _shown_meshes(ready: _Ready) -> Ints:
     return np.flatnonzero(shown & filled if (shown & filled).any() else filled)
 
 
-def _camera(ready: _Ready, meshes: Ints, direction: npt.ArrayLike) -> Camera:
-    size = (ready.config.width, ready.config.height)
-    return frame(ready.renderer.points(meshes), direction, size, margin=_MARGIN)
+def _camera(ready: _Ready, meshes: Ints, direction: npt.ArrayLike, size: float = 1.0) -> Camera:
+    # Even, so that what is only hinted at can be drawn at half the size.
+    width, height = (
+        2 * round(size * side / 2) if size < 1 else side for side in (ready.config.width, ready.config.height)
+    )
+    return frame(ready.renderer.points(meshes), direction, (width, height), margin=_MARGIN)
 
 
 def _counted(count: int, noun: str) -> str:
