@@ -34,7 +34,7 @@ app = typer.Typer(
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Runs the command line; ends the process with 0, with 2 on bad input or arguments, with 130 on Ctrl-C."""
-    # By then nothing is of use any more; to look for what isn't, among all that was imported, takes a third of a second.
+    # Nothing is of use at the end: to look for what isn't, among all that is imported, takes a third of a second.
     atexit.register(gc.freeze)
     # Here and not on import: what other packages bring imports this one.
     add_installed(app)

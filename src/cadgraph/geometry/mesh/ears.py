@@ -64,15 +64,19 @@ def _next_ear(
         i = (start + step) % n
         if turns[i] > noise:
             ear = corners[left[i - 1]], corners[left[i]], corners[left[(i + 1) % n]]
-            if not any(_is_within(point, ear, noise) for point in inner):
+            if not _holds_any(ear, inner, noise):
                 return i
     return None
 
 
-def _is_within(point: Corner, ear: tuple[Corner, Corner, Corner], noise: float) -> bool:
-    """Whether a place lies in or on a counter-clockwise triangle, and not where a corner of it is."""
-    x, y = point
+def _holds_any(ear: tuple[Corner, Corner, Corner], points: Sequence[Corner], noise: float) -> bool:
+    """Whether any place lies in or on a counter-clockwise triangle, and not where a corner of it is."""
     (ax, ay), (bx, by), (cx, cy) = a, b, c = ear
-    if x < min(ax, bx, cx) or x > max(ax, bx, cx) or y < min(ay, by, cy) or y > max(ay, by, cy) or point in ear:
-        return False
-    return min(double_area(a, b, point), double_area(b, c, point), double_area(c, a, point)) >= -noise
+    left, right, low, high = min(ax, bx, cx), max(ax, bx, cx), min(ay, by, cy), max(ay, by, cy)
+    for point in points:
+        x, y = point
+        if x < left or x > right or y < low or y > high or point in ear:
+            continue
+        if min(double_area(a, b, point), double_area(b, c, point), double_area(c, a, point)) >= -noise:
+            return True
+    return False
