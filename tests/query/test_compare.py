@@ -250,7 +250,13 @@ def test_pairs_are_read_with_or_without_a_header():
 
 
 @pytest.mark.parametrize(
-    ("text", "says"), [("a\n", "line 1"), ("a,b,c\n", "line 1"), ("a,b\na,c\n", "line 2: 'a' is there twice")]
+    ("text", "says"),
+    [
+        ("a\n", "line 1"),
+        ("a,b,c\n", "line 1"),
+        ("a,b\na,c\n", "line 2: 'a' is there twice"),
+        ("a,b\n" + 200_000 * "c" + ",d\n", "tags.csv: line 2: not CSV"),
+    ],
 )
 def test_pairs_that_are_none_are_refused(text, says):
     with pytest.raises(ValueError, match=says):

@@ -210,7 +210,10 @@ def read_mapping(text: str, where: str) -> dict[str, str]:
     """
     found: dict[str, str] = {}
     for number, line in enumerate(text.splitlines(), 1):
-        row = [cell.strip() for cell in next(csv.reader([line.partition("#")[0]]), [])]
+        try:
+            row = [cell.strip() for cell in next(csv.reader([line.partition("#")[0]]), [])]
+        except csv.Error as error:
+            raise ValueError(f"{where}: line {number}: not CSV ({error}); give a pair of tags in each line") from None
         if not any(row) or (number == 1 and [cell.casefold() for cell in row] == ["plan", "plant"]):
             continue
         if len(row) != 2 or not all(row):
