@@ -105,7 +105,7 @@ def _scene(stage: Any, config: LoadConfig, notes: Notes, budget: Budget, take_wa
     )
     of_key = {key: len(cut.corners) for key, (_, cut) in meshes.items()}
     budget.check_placed(sum(of_key[str(placement.geometry)] for placement in placements))
-    materials = Materials(stage) if walk.has_bindings else None
+    materials = Materials(stage, notes) if walk.has_bindings else None
     pieces = list(_pieces(placements, meshes, materials, config.split_subsets, notes))
     take_warnings()
     return pack(pieces, source, world_from_source, notes, _ABRIDGED)

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from pxr import Sdf, Usd, UsdShade
+from pxr import Sdf, Tf, Usd, UsdShade
 
+from cadgraph.load.packing import Notes
 from cadgraph.load.polygons import Indices
 from cadgraph.model.scene import Floats
 
@@ -33,10 +35,16 @@ _MAX_CHAIN = 16  # connections followed from one input to the next; a longer cha
 
 
 class Materials:
-    """The base colours of the materials of one stage, each looked up once."""
+    """The base colours of the materials of one stage, each looked up once.
 
-    def __init__(self, stage: Any) -> None:
+    Args:
+        stage: the open stage.
+        notes: gets what of a damaged file can't be read.
+    """
+
+    def __init__(self, stage: Any, notes: Notes) -> None:
         self._stage = stage
+        self._notes = notes
         self._colors: dict[str, Color | None] = {}
 
     def bound_colors(self, paths: Sequence[str], binding: Sequence[Sequence[str]]) -> list[Color | None]:
@@ -51,9 +59,31 @@ class Materials:
         if not paths:
             return []
         prims = [self._stage.GetPrimAtPath(path) for path in paths]
-        bound, _ = UsdShade.MaterialBindingAPI.ComputeBoundMaterials(prims, UsdShade.Tokens.full)
-        found = [str(m.GetPath()) if m else self._plain_target(plain) for m, plain in zip(bound, binding, strict=True)]
-        return [self._color(path) if path else None for path in found]
+        compute = UsdShade.MaterialBindingAPI.ComputeBoundMaterials
+        try:
+            found: list[Any] = compute(prims, UsdShade.Tokens.full)[0]
+        except Tf.ErrorException:
+            # One that is damaged takes all others with it.
+            found = [
+                self._read(path, partial(compute, [prim], UsdShade.Tokens.full))
+                for path, prim in zip(paths, prims, strict=True)
+            ]
+            found = [None if one is None else one[0][0] for one in found]
+        return [
+            self._read(path, partial(self._color_of, material, plain))
+            for path, material, plain in zip(paths, found, binding, strict=True)
+        ]
+
+    def _read(self, path: str, read: Callable[[], Any]) -> Any:
+        try:
+            return read()
+        except Tf.ErrorException:
+            self._notes.add("usd-warning", "its material is damaged and can't be read: it has no colour", path)
+            return None
+
+    def _color_of(self, material: Any, plain: Sequence[str]) -> Color | None:
+        path = str(material.GetPath()) if material else self._plain_target(plain)
+        return self._color(path) if path else None
 
     def _plain_target(self, binding: Sequence[str]) -> str | None:
         for path in binding:
