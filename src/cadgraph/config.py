@@ -37,6 +37,7 @@ __all__ = [
 ]
 
 _PAPER = "paper, section III-B"
+_MOST_SHOWN = 100  # characters of a name that a message repeats
 
 
 def _setting(default: Any, meaning: str, source: str = "ours", **limits: Any) -> Any:
@@ -368,7 +369,7 @@ class Config(Section):
             for section in sections:
                 at = at.get(section) if isinstance(at, dict) else None
                 if not isinstance(at, dict):
-                    raise ValueError(f"no setting is called {name!r}; 'cadgraph config' lists them all")
+                    raise ValueError(f"no setting is called {_shown(name)}; 'cadgraph config' lists them all")
             at[last] = value
         return _validated(tree, "settings")
 
@@ -431,8 +432,14 @@ def _validated(tree: Mapping[str, Any], where: str) -> Config:
         first = error.errors()[0]
         name = ".".join(str(step) for step in first["loc"])
         if first["type"] == "extra_forbidden":
-            raise ValueError(f"{where}: no setting is called {name!r}; 'cadgraph config' lists them all") from None
+            raise ValueError(
+                f"{where}: no setting is called {_shown(name)}; 'cadgraph config' lists them all"
+            ) from None
         raise ValueError(f"{where}: {name} {expectation(first)}{_meaning_of(first['loc'])}") from None
+
+
+def _shown(name: str) -> str:
+    return repr(name if len(name) <= _MOST_SHOWN else f"{name[:_MOST_SHOWN]}...")
 
 
 def _meaning_of(place: tuple[str | int, ...]) -> str:
