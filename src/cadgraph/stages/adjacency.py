@@ -57,6 +57,8 @@ def join_contacts(near: Contacts, part_of_mesh: Ints, eps: float) -> Contacts:
     parts = np.sort(parts, axis=1)
     points = np.where(swapped[:, None, None], points[:, ::-1], points)
     order = np.lexsort((np.arange(len(parts)), distance, parts[:, 1], parts[:, 0]))
-    first = np.unique(parts[order], axis=0, return_index=True)[1] if len(order) else order
-    chosen = order[first]
+    ordered = parts[order]
+    is_first = np.ones(len(order), np.bool_)
+    is_first[1:] = (ordered[1:] != ordered[:-1]).any(axis=1)
+    chosen = order[is_first]
     return Contacts(parts[chosen], distance[chosen], points[chosen])
