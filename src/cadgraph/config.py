@@ -15,6 +15,7 @@ from typing import Any, Literal
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
 from cadgraph._io.limits import CONFIG, read_text_within
+from cadgraph._io.text import quoted
 from cadgraph._io.validation_messages import expectation
 
 __all__ = [
@@ -369,7 +370,9 @@ class Config(Section):
             for section in sections:
                 at = at.get(section) if isinstance(at, dict) else None
                 if not isinstance(at, dict):
-                    raise ValueError(f"no setting is called {_shown(name)}; 'cadgraph config' lists them all")
+                    raise ValueError(
+                        f"no setting is called {quoted(name, _MOST_SHOWN)}; 'cadgraph config' lists them all"
+                    )
             at[last] = value
         return _validated(tree, "settings")
 
@@ -433,13 +436,9 @@ def _validated(tree: Mapping[str, Any], where: str) -> Config:
         name = ".".join(str(step) for step in first["loc"])
         if first["type"] == "extra_forbidden":
             raise ValueError(
-                f"{where}: no setting is called {_shown(name)}; 'cadgraph config' lists them all"
+                f"{where}: no setting is called {quoted(name, _MOST_SHOWN)}; 'cadgraph config' lists them all"
             ) from None
         raise ValueError(f"{where}: {name} {expectation(first)}{_meaning_of(first['loc'])}") from None
-
-
-def _shown(name: str) -> str:
-    return repr(name if len(name) <= _MOST_SHOWN else f"{name[:_MOST_SHOWN]}...")
 
 
 def _meaning_of(place: tuple[str | int, ...]) -> str:

@@ -6,7 +6,7 @@ import re
 from collections.abc import Sequence
 from pathlib import PurePosixPath, PureWindowsPath
 
-__all__ = ["file_name", "harmless", "natural_key", "natural_order", "printable", "tag_key", "xml_text"]
+__all__ = ["file_name", "harmless", "natural_key", "natural_order", "printable", "quoted", "tag_key", "xml_text"]
 
 _LONGEST = 20_000  # characters of a text that is sorted fast: their number must be a character
 _UNSHOWN = "\N{REPLACEMENT CHARACTER}"
@@ -64,6 +64,11 @@ class _Numbers(dict[str, str]):
 def tag_key(tag: str) -> NaturalKey:
     """A key that sorts ``V-2`` before ``V-10``, capitals as small letters."""
     return natural_key(tag.casefold())
+
+
+def quoted(text: str, most: int = 200) -> str:
+    """A text of a file in quotes, as messages repeat it: cut where nobody would read on, after so many characters."""
+    return repr(text if len(text) <= most else f"{text[:most]}...")
 
 
 def printable(text: str, instead: str = " ") -> str:

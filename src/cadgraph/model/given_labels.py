@@ -12,13 +12,13 @@ from pathlib import Path
 from typing import Any
 
 from cadgraph._io.limits import LABELS, read_text_within
+from cadgraph._io.text import quoted
 from cadgraph.errors import LabelError
 from cadgraph.model.vocabulary import Vocabulary
 
 __all__ = ["GivenLabel", "read_labels", "split_label"]
 
 _MAX_LENGTH = 4096  # of a path or label; longer is no label but damage
-_MOST_SHOWN = 200  # characters of one in a message
 
 
 @dataclass(frozen=True)
@@ -56,7 +56,7 @@ def read_labels(path: str | Path, vocabulary: Vocabulary) -> tuple[GivenLabel, .
     seen: set[str] = set()
     for label in labels:
         if label.mesh in seen:
-            raise LabelError(f"{path}: mesh {_shown(label.mesh)} is labelled twice; keep one row")
+            raise LabelError(f"{path}: mesh {quoted(label.mesh)} is labelled twice; keep one row")
         seen.add(label.mesh)
     return labels
 
@@ -99,17 +99,12 @@ def _checked(row: Any, place: str, vocabulary: Vocabulary) -> GivenLabel:
             raise LabelError(f"{place}: {key!r} must be text, not {str(value)[:60]!r}")
     if not vocabulary.holds(str(group)):
         raise LabelError(
-            f"{place}: group {_shown(str(group))} is not in the vocabulary ({', '.join(vocabulary.groups)}); "
+            f"{place}: group {quoted(str(group))} is not in the vocabulary ({', '.join(vocabulary.groups)}); "
             "add it with --vocabulary"
         )
     if not vocabulary.holds(str(group), name):
-        raise LabelError(f"{place}: {_shown(str(name))} is no name of group {group!r}; add it with --vocabulary")
+        raise LabelError(f"{place}: {quoted(str(name))} is no name of group {group!r}; add it with --vocabulary")
     return GivenLabel(str(mesh), str(group), name)
-
-
-def _shown(text: str) -> str:
-    """A text in quotes, cut where nobody would read on."""
-    return repr(text if len(text) <= _MOST_SHOWN else text[:_MOST_SHOWN] + "...")
 
 
 def split_label(text: str, vocabulary: Vocabulary | None) -> tuple[str, str | None]:
