@@ -104,8 +104,8 @@ def test_what_needs_all_meshes_in_place_once_does_not_leave_them_with_the_scene(
     assert prepared.placement is not None
     for each in (scene, prepared):
         assert not {"vertices", "faces"} & each.__dict__.keys()
-    np.testing.assert_array_equal(scene.placed()[0], scene.vertices)
-    assert scene.placed()[0] is scene.vertices
+    np.testing.assert_array_equal(scene.placed_vertices(), scene.vertices)
+    assert scene.placed_vertices() is scene.vertices
 
 
 def test_a_shape_that_is_spoilt_is_found_in_every_place():

@@ -9,8 +9,6 @@ from cadgraph.errors import LoadError
 from cadgraph.load import load
 from cadgraph.load.usd_walk import Walk
 
-POINTS = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1)]
-
 
 def tetrahedron(stage, path, rng):
     mesh = UsdGeom.Mesh.Define(stage, path)

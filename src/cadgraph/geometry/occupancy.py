@@ -34,11 +34,11 @@ def occupied(scene: Scene, meshes: Ints, low: float, high: float, grid: Grid) ->
     columns, rows = grid.size
     found = np.zeros((rows, columns), np.bool_)
     for part, numbers in _in_place(scene, meshes):
-        vertices, faces = part.placed()
         _fill(
-            readable(vertices, np.float64), readable(faces, np.int32), readable(part.vertex_offsets, np.int64),
-            readable(part.face_offsets, np.int64), readable(numbers, np.int64), round(float(low), 6),
-            round(float(high), 6), grid.origin[0], grid.origin[1], 1.0 / grid.step, found,
+            readable(part.placed_vertices(), np.float64), readable(part.placed_faces(), np.int32),
+            readable(part.vertex_offsets, np.int64), readable(part.face_offsets, np.int64),
+            readable(numbers, np.int64), round(float(low), 6), round(float(high), 6), grid.origin[0], grid.origin[1],
+            1.0 / grid.step, found,
         )  # fmt: skip
     return found
 

@@ -100,15 +100,6 @@ class MeshArrays:
         f0, f1 = self.face_offsets[index : index + 2]
         return self.vertices[v0:v1], self.faces[f0:f1]
 
-    def joined(self, others: MeshArrays) -> MeshArrays:
-        """These meshes, then others."""
-        return MeshArrays(
-            np.concatenate([self.vertices, others.vertices]),
-            np.concatenate([self.faces, others.faces]),
-            np.concatenate([self.vertex_offsets, self.vertex_offsets[-1] + others.vertex_offsets[1:]]),
-            np.concatenate([self.face_offsets, self.face_offsets[-1] + others.face_offsets[1:]]),
-        )
-
     def select(self, order: Ints) -> MeshArrays:
         """Some of the meshes, in the order given."""
         n_vertices, n_faces = np.diff(self.vertex_offsets)[order], np.diff(self.face_offsets)[order]
@@ -248,22 +239,19 @@ class Scene:
         """``(n_vertices, 3)`` float64 [m] of all meshes, relative to ``origin``; made on first use where shapes are
         shared, and as large as all meshes together.
         """
-        return self._placed_vertices()
+        return self.placed_vertices()
 
     @cached_property
     def faces(self) -> Faces:
         """``(n_faces, 3)`` int32 triangles of all meshes; indices are local to the mesh."""
-        return self._repeated_faces()
+        return self.placed_faces()
 
-    def placed(self) -> tuple[Floats, Faces]:
-        """``vertices`` and ``faces``; where they have to be made and weren't asked for, the scene doesn't keep them."""
-        made = self.__dict__
-        vertices = made["vertices"] if "vertices" in made else self._placed_vertices()
-        return vertices, made["faces"] if "faces" in made else self._repeated_faces()
-
-    def _placed_vertices(self) -> Floats:
+    def placed_vertices(self) -> Floats:
+        """``vertices``, which the scene doesn't keep where they have to be made for this."""
         if self.placement is None:
             return self.shapes.vertices
+        if "vertices" in self.__dict__:
+            return self.vertices
         ends = self.vertex_offsets.tolist()
         vertices = np.empty((ends[-1], 3))
         starts = self.shapes.vertex_offsets.tolist()
@@ -274,9 +262,12 @@ class Scene:
             slot += shift
         return vertices
 
-    def _repeated_faces(self) -> Faces:
+    def placed_faces(self) -> Faces:
+        """``faces``, likewise."""
         if self.placement is None:
             return self.shapes.faces
+        if "faces" in self.__dict__:
+            return self.faces
         first = self.shapes.face_offsets[:-1][self.placement.shape]
         return self.shapes.faces[_ranges(first, np.diff(self.face_offsets))]
 
@@ -300,12 +291,10 @@ class Scene:
 
         Where shapes are shared, ``faces`` is not made for it.
         """
-        counts = np.diff(self.face_offsets)
+        faces = self.placed_faces()
         if self.placement is None or "faces" in self.__dict__:
-            faces = self.faces.copy()
-        else:
-            faces = self.shapes.faces[_ranges(self.shapes.face_offsets[:-1][self.placement.shape], counts)]
-        faces += np.repeat(self.vertex_offsets[:-1].astype(np.int32), counts)[:, None]
+            faces = faces.copy()
+        faces += np.repeat(self.vertex_offsets[:-1].astype(np.int32), np.diff(self.face_offsets))[:, None]
         return faces
 
     def triangles(self) -> Floats:

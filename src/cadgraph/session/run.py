@@ -125,6 +125,9 @@ def run(
             return Outcome(SceneGraph.load(target), {}, clock.seconds)
         scene, graph = session.analysis.scene, session.make_graph(clock)
         del session
+        if scene.n_meshes > _MANY:
+            # What the stages have found and nobody holds any more leads back to itself in many places.
+            gc.collect()
         return write_results(scene, graph, source, target, config.report if report else None, clock)
 
 
@@ -195,9 +198,6 @@ def write_results(
         OutputError: a file can't be written.
     """
     there = [name for name in _OF_ITS_GRAPH if (target / name).exists()]
-    if scene.n_meshes > _MANY:
-        # What the stages have found and nobody holds any more leads back to itself in many places.
-        gc.collect()
     with new_results(target, dropped=_OF_ITS_GRAPH) as new:
         clock("write graph", 0)
         stage_graph(scene, graph, source, target, clock)

@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from cadgraph.geometry.kernels.parallel import ZERO, compiled, readable
-from cadgraph.model.scene import Ints, MeshArrays, Scene
+from cadgraph.model.scene import Ints, Scene
 
 __all__ = ["CREASE_ANGLE", "CornerNormals", "Normals", "corner_normals"]
 
@@ -205,19 +205,16 @@ class CornerNormals:
         """
         other = copy(self)
         other._lock = threading.Lock()
-        # What moved is a shape of its own, as it lies now.
-        own, n_meshes = MeshArrays.of([scene.mesh(mesh) for mesh in meshes.tolist()]), scene.n_meshes
-        rows = np.diff(own.face_offsets)
-        other._shapes = self._shapes.joined(own)
-        other._shape = self._shape.copy()
-        other._shape[meshes] = self._shapes.n + np.arange(len(meshes))
+        # What moved is a shape of its own, as it lies now; it is little, and nearly always seen.
+        own = [corner_normals(*scene.mesh(mesh)) for mesh in meshes.tolist()]
+        rows = np.cumsum([0, *map(len, own)])
         with self._lock:
-            other._ready = np.concatenate([self._ready, np.zeros(len(meshes), bool)])
-            known = self._normals
-            corners = np.concatenate([known.corners, np.zeros((int(rows.sum()), 3, 3), np.float32)])
-        shift, turn = known.shift.copy(), known.turn.copy()
-        shift[meshes] = len(known.corners) + own.face_offsets[:-1] - scene.face_offsets[:-1][meshes]
-        if len(turn) == n_meshes:
+            other._ready = np.concatenate([self._ready, np.ones(len(own), bool)])
+            corners = np.concatenate([self._normals.corners, *own])
+        other._shape, shift, turn = self._shape.copy(), self._normals.shift.copy(), self._normals.turn.copy()
+        other._shape[meshes] = len(self._ready) + np.arange(len(own))
+        shift[meshes] = len(self._normals.corners) + rows[:-1] - scene.face_offsets[:-1][meshes]
+        if len(turn):
             turn[meshes] = np.eye(3)
         other._normals = Normals(corners, shift, turn)
         return other

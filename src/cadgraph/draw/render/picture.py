@@ -148,7 +148,7 @@ class Renderer:
     def points(self, meshes: npt.ArrayLike | None = None) -> Floats:
         """``(n, 3)`` the finite vertices of these meshes (all by default) [m], for framing."""
         scene = self.scene if meshes is None else self.scene.select(np.unique(np.asarray(meshes, np.int64)))
-        vertices = scene.placed()[0]
+        vertices = scene.placed_vertices()
         finite = np.isfinite(vertices).all(axis=1)
         return vertices if finite.all() else vertices[finite]
 

@@ -140,7 +140,9 @@ def draw_pictures(scene: Scene, graph: SceneGraph, config: ReportConfig, progres
         np.array([owner.get(path, -1) for path in scene.paths], np.int64), colors, color_of_unit_type(graph, colors),
     )  # fmt: skip
     shown = _shown_meshes(ready)
-    camera = _camera(ready, shown, three_quarter_view(ready.renderer, shown, aspect=config.width / config.height))
+    whole = config.width, config.height
+    direction = three_quarter_view(ready.renderer, shown, aspect=config.width / config.height)
+    camera = _camera(ready, shown, direction, whole)
     groups, hatched, legend = _group_paint(ready)
     clusters = _cluster_paint(ready)
     paints = [Paint(groups, hatched), Paint(source_colors(scene)), Paint(clusters)]
@@ -152,7 +154,7 @@ def draw_pictures(scene: Scene, graph: SceneGraph, config: ReportConfig, progres
     ]
     structures = largest_first(graph.clusters("pipe system"))[: config.max_systems]
     # The page shows a single one over its whole width, several side by side.
-    size, letters = (1.0, 1.0) if len(structures) == 1 else (_SIDE_BY_SIDE, _LETTERS)
+    size, letters = (whole, 1.0) if len(structures) == 1 else (_smaller(whole), _LETTERS)
 
     def draw(number: int) -> Picture | None:
         cluster = structures[number]
@@ -253,7 +255,7 @@ def _by_cluster(ready: _Ready, camera: Camera, image: Image.Image, others: bool)
 
 
 def _structure(
-    ready: _Ready, cluster: Cluster, title: str, overview: Camera, size: float, letters: float
+    ready: _Ready, cluster: Cluster, title: str, overview: Camera, size: tuple[int, int], letters: float
 ) -> Picture | None:
     graph, renderer = ready.graph, ready.renderer
     members = {part.id for part in graph.parts(cluster=cluster.id)}
@@ -394,12 +396,14 @@ def _shown_meshes(ready: _Ready) -> Ints:
     return np.flatnonzero(shown & filled if (shown & filled).any() else filled)
 
 
-def _camera(ready: _Ready, meshes: Ints, direction: npt.ArrayLike, size: float = 1.0) -> Camera:
-    # Even, so that what is only hinted at can be drawn at half the size.
-    width, height = (
-        2 * round(size * side / 2) if size < 1 else side for side in (ready.config.width, ready.config.height)
-    )
-    return frame(ready.renderer.points(meshes), direction, (width, height), margin=_MARGIN)
+def _smaller(size: tuple[int, int]) -> tuple[int, int]:
+    """The size of pictures side by side; even, so that what is only hinted at can be drawn at half of it."""
+    width, height = size
+    return 2 * round(_SIDE_BY_SIDE * width / 2), 2 * round(_SIDE_BY_SIDE * height / 2)
+
+
+def _camera(ready: _Ready, meshes: Ints, direction: npt.ArrayLike, size: tuple[int, int]) -> Camera:
+    return frame(ready.renderer.points(meshes), direction, size, margin=_MARGIN)
 
 
 def _counted(count: int, noun: str) -> str:

@@ -91,9 +91,9 @@ def build_forest(scene: Scene, workers: int | None = None) -> Forest:
     leaves = -(-n_faces // LEAF)
     node_offsets = np.zeros(n + 1, np.int64)
     np.cumsum(np.maximum(2 * leaves - 1, 0), out=node_offsets[1:])
-    vertices, faces = scene.placed()
+    faces = np.ascontiguousarray(scene.placed_faces(), np.int32)
     forest = Forest(
-        vertices=np.ascontiguousarray(vertices, np.float64),
+        vertices=np.ascontiguousarray(scene.placed_vertices(), np.float64),
         vertex_offsets=np.ascontiguousarray(scene.vertex_offsets, np.int64),
         faces=np.empty((len(faces), 3), np.int32),
         face_offsets=np.ascontiguousarray(scene.face_offsets, np.int64),
@@ -105,7 +105,6 @@ def build_forest(scene: Scene, workers: int | None = None) -> Forest:
         upright=np.ones(n, np.bool_),
         boxes=np.full((n, 2, 3), np.nan),
     )
-    faces = np.ascontiguousarray(faces, np.int32)
 
     def build(first: int, last: int) -> None:
         _build_trees(
