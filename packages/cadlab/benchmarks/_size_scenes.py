@@ -114,14 +114,14 @@ def write_lines(path: Path, n: int, points: bool = False) -> None:
     UsdGeom.SetStageMetersPerUnit(stage, 1.0)
     UsdGeom.SetStageUpAxis(stage, UsdGeom.Tokens.z)
     stage.SetDefaultPrim(UsdGeom.Xform.Define(stage, "/Plant").GetPrim())
-    if points:
-        UsdGeom.Scope.Define(stage, "/Shapes").GetPrim().SetSpecifier(Sdf.SpecifierOver)
-    else:
+    if not points:
         stage.CreateClassPrim("/Shapes")
     for kind in range(max(2, n // 3000)):
         for number, mesh in enumerate(shapes_of(kind)):
             over = stage.DefinePrim(f"/Shapes/S_{kind}_{number}", "Xform")
             write_mesh(stage, f"{over.GetPath()}/Body", mesh)
+    if points:  # last, as what is defined below it defines it too, and all shapes would lie in a heap at the origin
+        stage.GetPrimAtPath("/Shapes").SetSpecifier(Sdf.SpecifierOver)
     for row, kind, placed in lines(n):
         if points:
             _write_points(stage, row, kind, placed)
