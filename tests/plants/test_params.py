@@ -12,6 +12,7 @@ from cadplants.builder.params import (
     chance,
     nested,
     several,
+    styled,
     weighted,
     whole,
 )
@@ -121,3 +122,29 @@ def test_a_class_is_a_family_whose_models_say_what_they_were_built_from():
     model = family.build(20, STYLES["bim"], np.random.default_rng(2))
     assert model.params == Coil.draw(np.random.default_rng(2), dn=20).to_json()
     assert model.params["dn"] == 20
+
+
+class Housing(Device, name="filter/housing", place="floor", group="Equipment", label="filter", sizes=(15,)):
+    hollow: bool = styled(True, "whether insides are modelled")
+    cartridge: Knob = nested(Knob, "what is inside", when=lambda p: p.hollow)
+    count: int = whole(1, 3, "feet")
+    feet: tuple[Knob, ...] = several(lambda rng, _: Knob.draw(rng), lambda p: p.count, "its feet")
+
+    def build(self, t):
+        t.add("filter", box((0.1, 0.1, 0.1)))
+        return t.model()
+
+
+def test_what_a_style_leaves_out_has_no_parameters():
+    (family,) = families_of(Housing)
+    for name, hollow in (("mechanical", True), ("bim", False)):
+        drawn = family.build.draw(15, STYLES[name], 3)
+        assert drawn.hollow is hollow
+        assert (drawn.cartridge is not None) is hollow
+        assert family.build(15, STYLES[name], Apart(3)).params == drawn.to_json()
+
+
+def test_pieces_of_which_there_are_several_are_read_one_by_one():
+    drawn = Housing.draw(Apart(3), count=2)
+    assert {"feet.0.radius", "feet.1.lobes"} <= {row[0] for row in drawn.rows()}
+    assert json.loads(json.dumps(drawn.to_json()))["feet"][1]["lobes"] == drawn.feet[1].lobes

@@ -172,7 +172,7 @@ def make_device_file(
             raise ValueError(f"--set {one}: give a parameter and its value as NAME=VALUE")
         told[key.strip()] = value.strip()
     if output is None:
-        _tell_parameters(family_called(name), draw_parameters(name, seed, told))
+        _tell_parameters(family_called(name), draw_parameters(name, seed, told, style))
         return
     plant = make_device(name, seed, style, given=told)
     truth = write_plant(plant, output)

@@ -40,16 +40,19 @@ def usual_size(family: Family) -> int:
     return family.sizes[len(family.sizes) // 2] if family.sizes else 0
 
 
-def draw_parameters(name: str, seed: int = 0, given: Mapping[str, Any] | None = None) -> Device | None:
+def draw_parameters(
+    name: str, seed: int = 0, given: Mapping[str, Any] | None = None, style: str | ModelingStyle = "plant-design"
+) -> Device | None:
     """The parameters of one device of a family; None where the family doesn't have any.
 
     Args:
         name: of the family.
         seed: of what is not given; each parameter has a stream of random numbers of its own.
         given: parameters by name, ``dn`` among them.
+        style: that will model it, or the name of a published one; what a style leaves out has no parameters.
 
     Raises:
-        ValueError: no such family, size or parameter, or a value can't be.
+        ValueError: no such family, style, size or parameter, or a value can't be.
     """
     family, told = family_called(name), dict(given or {})
     size = _size(family, told)
@@ -58,7 +61,16 @@ def draw_parameters(name: str, seed: int = 0, given: Mapping[str, Any] | None = 
         if told:
             raise ValueError(f"{name} has no parameters that can be given, only a seed, a size (dn) and a style")
         return None
-    return family.build.draw(size, seed, *((CARRIED,) if family.place == "carrier" else ()), **told)
+    height = (CARRIED,) if family.place == "carrier" else ()
+    return family.build.draw(size, _style_called(style), seed, *height, **told)
+
+
+def _style_called(style: str | ModelingStyle) -> ModelingStyle:
+    if isinstance(style, ModelingStyle):
+        return style
+    if style not in STYLES:
+        raise ValueError(f"style {style!r}: give one of {', '.join(STYLES)}")
+    return STYLES[style]
 
 
 def _size(family: Family, given: Mapping[str, Any]) -> int:
@@ -90,13 +102,9 @@ def make_device(
     Raises:
         ValueError: no such family, style, size or parameter, or a value can't be.
     """
-    family = family_called(name)
-    if isinstance(style, str):
-        if style not in STYLES:
-            raise ValueError(f"style {style!r}: give one of {', '.join(STYLES)}")
-        style = STYLES[style]
+    family, style = family_called(name), _style_called(style)
     told = {**({"dn": dn} if dn is not None else {}), **(given or {})}
-    drawn = draw_parameters(name, seed, told)
+    drawn = draw_parameters(name, seed, told, style)
     model: Any
     if drawn is not None:
         model = drawn.model(style)

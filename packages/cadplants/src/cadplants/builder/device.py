@@ -90,13 +90,16 @@ class Maker:
             source: of random numbers.
             height: of the line's axis over the floor, of carriers [m].
         """
-        return self.draw(dn, source, *height).model(style)
+        return self.draw(dn, style, source, *height).model(style)
 
-    def draw(self, dn: int, source: Source | np.random.Generator | int, *height: float, **told: Any) -> Device:
+    def draw(
+        self, dn: int, style: ModelingStyle, source: Source | np.random.Generator | int, *height: float, **told: Any
+    ) -> Device:
         """The parameters of one at random, but for those that are given.
 
         Args:
             dn: nominal size [mm].
+            style: that will model it; what a style leaves out has no parameters.
             source: of random numbers, or a seed, of which each parameter gets a stream of its own.
             height: of carriers [m].
             told: parameters that are given, by name.
@@ -105,7 +108,8 @@ class Maker:
             source = Apart(source)
         elif isinstance(source, np.random.Generator):
             source = OneStream(source)
-        return self.device.draw(source, {"dn": dn, **({"height": height[0]} if height else {})}, **told)
+        said = {name: getattr(style, name) for name, field in self.device.fields().items() if field.of_style}
+        return self.device.draw(source, {**said, "dn": dn, **({"height": height[0]} if height else {})}, **told)
 
 
 def families_of(*devices: type[Device]) -> Sequence[Family]:

@@ -35,6 +35,7 @@ __all__ = [
     "given",
     "nested",
     "several",
+    "styled",
     "weighted",
     "whole",
 ]
@@ -102,6 +103,7 @@ class Field:
         when: whether the device has it at all, by the fields before it; None: always.
         otherwise: its value where it has not.
         piece: the class of a piece with parameters of its own.
+        of_style: whether the style says it.
     """
 
     about: str
@@ -112,6 +114,7 @@ class Field:
     when: When | None = None
     otherwise: Any = None
     piece: type[Params] | None = None
+    of_style: bool = False
 
 
 def _field(spec: Field) -> Any:
@@ -231,6 +234,11 @@ def given(default: T, about: str, unit: str = "") -> T:
     return _field(Field(about, unit, f"{default} unless given", lambda *_: default, lambda v, _: kind(v)))  # type: ignore[call-arg, no-any-return]
 
 
+def styled(default: T, about: str) -> T:
+    """What the style says under the field's own name, of which other fields depend: ``hollow``, ``fasteners``."""
+    return _field(Field(about, "", "as the style has it", lambda *_: default, lambda v, _: v, of_style=True))  # type: ignore[no-any-return]
+
+
 def nested(
     kind: type[P] | Callable[[Source, Any], P], about: str, *, when: When | None = None, otherwise: P | None = None
 ) -> P:
@@ -269,7 +277,7 @@ def several(
 @dataclass_transform(
     kw_only_default=True,
     frozen_default=True,
-    field_specifiers=(between, whole, chance, among, weighted, given, nested, several),
+    field_specifiers=(between, whole, chance, among, weighted, given, nested, several, styled),
 )
 class Params:
     """The parameters of a device or a piece of one; every subclass is a frozen dataclass of its fields."""
@@ -335,6 +343,10 @@ class Params:
                 # Of a piece that can be of several kinds, which one it is.
                 found += [(within + name, value.kind, spec.limits, spec.about)] if value.kind else []
                 found += value.rows(f"{within}{name}.")
+            elif isinstance(value, tuple) and value and isinstance(value[0], Params):
+                for k, one in enumerate(value):
+                    found += [(f"{within}{name}.{k}", one.kind, spec.limits, spec.about)] if one.kind else []
+                    found += one.rows(f"{within}{name}.{k}.")
             elif value is not None:
                 found.append((within + name, _told(value), spec.limits, spec.about + unit))
         return found
