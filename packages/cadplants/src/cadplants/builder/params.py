@@ -280,19 +280,27 @@ def several(
     field_specifiers=(between, whole, chance, among, weighted, given, nested, several, styled),
 )
 class Params:
-    """The parameters of a device or a piece of one; every subclass is a frozen dataclass of its fields."""
+    """The parameters of a device or a piece of one; every subclass is a frozen dataclass of its fields.
+
+    It becomes one when it is first used: there are a thousand, and a dataclass takes about a millisecond to make.
+    """
 
     kind: ClassVar[str] = ""
     """What the piece is called where it is one of several: ``lever``."""
+    _fields: ClassVar[Mapping[str, Field]]
 
-    def __init_subclass__(cls, **more: Any) -> None:
-        super().__init_subclass__(**more)
-        dataclass(frozen=True, kw_only=True)(cls)
+    def __new__(cls: type[P], **values: Any) -> P:
+        """An empty one, which ``__init__`` fills."""
+        _make_dataclass(cls)
+        return super().__new__(cls)
 
     @classmethod
     def fields(cls) -> Mapping[str, Field]:
         """How each parameter is drawn, by its name."""
-        return {f.name: f.metadata["spec"] for f in dataclasses.fields(cls)}  # type: ignore[arg-type]
+        if "_fields" not in cls.__dict__:
+            _make_dataclass(cls)
+            cls._fields = {f.name: f.metadata["spec"] for f in dataclasses.fields(cls)}  # type: ignore[arg-type]
+        return cls._fields
 
     @classmethod
     def draw(cls: type[P], source: Source | Rng, fixed: Mapping[str, Any] | None = None, **given: Any) -> P:
@@ -355,6 +363,15 @@ class Params:
         """All parameters as plain JSON values, pieces as objects of their own."""
         said = {"kind": self.kind} if self.kind else {}
         return said | {name: _plain(getattr(self, name)) for name in self.fields()}
+
+
+def _make_dataclass(cls: type) -> None:
+    """Makes a class a dataclass, after those that it derives from, unless it is one."""
+    if "__dataclass_fields__" in cls.__dict__:
+        return
+    for one in reversed(cls.__mro__):
+        if issubclass(one, Params) and one is not Params and "__dataclass_fields__" not in one.__dict__:
+            dataclass(frozen=True, kw_only=True)(one)
 
 
 def _below(name: str, given: Mapping[str, Any]) -> dict[str, Any]:
