@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any, ClassVar
 
@@ -56,6 +55,14 @@ class Device(Params):
             if key in said:
                 setattr(cls, key, said.pop(key))
         super().__init_subclass__(**said)
+
+    def rows(self, within: str = "") -> list[tuple[str, str, str, str]]:
+        """What people read of all parameters; the nominal size is one of those that the family is made in."""
+        sizes = ", ".join(map(str, self.sizes))
+        return [
+            (name, value, sizes if name == f"{within}dn" else limits, about)
+            for name, value, limits, about in super().rows(within)
+        ]
 
     def build(self, t: Table) -> Model:
         """Puts the device down: along x from 0 in a line, else on z = 0 about the origin.
@@ -112,7 +119,7 @@ class Maker:
         return self.device.draw(source, {**said, "dn": dn, **({"height": height[0]} if height else {})}, **told)
 
 
-def families_of(*devices: type[Device]) -> Sequence[Family]:
+def families_of(*devices: type[Device]) -> tuple[Family, ...]:
     """Families as the assortment takes them, from their classes."""
     return tuple(
         Family(one.name, one.place, one.group, one.label, Maker(one), one.sizes, one.grain, one.weight, one.welded)

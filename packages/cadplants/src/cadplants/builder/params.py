@@ -198,7 +198,7 @@ def among(
     def accept(value: Any, before: Any) -> T:
         some = choices(before)
         for item in some:
-            if value == item or str(value) == str(item):
+            if value == item or str(value) in (str(item), _told(item)):
                 return item
         if all(isinstance(item, float) for item in some):
             # A size that no draw takes may be asked for, as far as it lies among those that draws take.
@@ -206,9 +206,9 @@ def among(
             if least <= number <= most:  # type: ignore[operator]
                 return number  # type: ignore[return-value]
             raise ValueError(f"give {least:g} to {most:g}")
-        raise ValueError(f"give {', '.join(str(item) for item in dict.fromkeys(some))}")
+        raise ValueError(f"give {', '.join(map(_told, dict.fromkeys(some)))}")
 
-    limits = "by the fields before" if callable(items) else ", ".join(str(item) for item in dict.fromkeys(items))
+    limits = "by the fields before" if callable(items) else ", ".join(map(_told, dict.fromkeys(items)))
     return _field(Field(about, unit, limits, sample, accept, when, otherwise))  # type: ignore[no-any-return]
 
 
