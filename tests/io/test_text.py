@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from cadgraph._io.text import natural_key, natural_order, printable, tag_key, xml_text
+from cadgraph._io.text import natural_key, natural_order, printable, shortened, tag_key, xml_text
 
 
 def test_numbers_sort_by_value_and_paths_before_those_below_them():
@@ -41,3 +41,10 @@ def test_the_fast_order_is_that_of_the_key(texts):
 @given(st.lists(st.text(st.sampled_from("ab/0123_"), max_size=12)))
 def test_the_fast_order_is_that_of_the_key_for_plain_texts(texts):
     assert natural_order(texts) == sorted(range(len(texts)), key=lambda i: natural_key(texts[i]))
+
+
+@given(st.text(max_size=12), st.integers(1, 12))
+def test_what_is_cut_is_as_long_as_it_may_be_and_says_so(text, most):
+    cut = shortened(text, most)
+    assert len(cut) <= most
+    assert cut == text if len(text) <= most else cut.endswith("…") and text.startswith(cut[:-1])

@@ -6,7 +6,17 @@ import re
 from collections.abc import Sequence
 from pathlib import PurePosixPath, PureWindowsPath
 
-__all__ = ["file_name", "harmless", "natural_key", "natural_order", "printable", "quoted", "tag_key", "xml_text"]
+__all__ = [
+    "file_name",
+    "harmless",
+    "natural_key",
+    "natural_order",
+    "printable",
+    "quoted",
+    "shortened",
+    "tag_key",
+    "xml_text",
+]
 
 _LONGEST = 20_000  # characters of a text that is sorted fast: their number must be a character
 _UNSHOWN = "\N{REPLACEMENT CHARACTER}"
@@ -69,6 +79,11 @@ def tag_key(tag: str) -> NaturalKey:
 def quoted(text: str, most: int = 200) -> str:
     """A text of a file in quotes, as messages repeat it: cut where nobody would read on, after so many characters."""
     return repr(text if len(text) <= most else f"{text[:most]}...")
+
+
+def shortened(text: str, most: int) -> str:
+    """A text of at most so many characters, of which the last is an ellipsis where something was cut off."""
+    return text if len(text) <= most else f"{text[: most - 1].rstrip()}…"
 
 
 def printable(text: str, instead: str = " ") -> str:

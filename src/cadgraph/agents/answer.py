@@ -12,7 +12,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from cadgraph._io.text import printable
+from cadgraph._io.text import printable, shortened
 from cadgraph.errors import AskError
 
 __all__ = ["BUDGET", "Answer", "AskError", "among", "cell", "did_you_mean", "page_of", "row", "tokens"]
@@ -59,8 +59,7 @@ def cell(text: object, most: int = 80) -> str:
     if text is None:
         return ""
     # Only so much is looked at that a name of a million characters costs nothing.
-    clean = " ".join(printable(str(text)[: 8 * most + 8]).split())
-    return clean if len(clean) <= most else clean[: most - 1].rstrip() + "…"
+    return shortened(" ".join(printable(str(text)[: 8 * most + 8]).split()), most)
 
 
 def row(*cells: object) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 
+from cadgraph._io.text import shortened
 from cadgraph.model.facts import Fact
 
 __all__ = ["Names", "clipped", "name_fact", "path_step", "step_text"]
@@ -54,5 +55,4 @@ def name_fact(path: str, name: object, where: str) -> tuple[Fact, ...]:
 
 def clipped(value: str) -> str:
     """A value of a fact; what is longer than any sensible one ends in an ellipsis."""
-    value = value.strip()
-    return value if len(value) <= _LONGEST_VALUE else value[:_LONGEST_VALUE] + "…"
+    return shortened(value.strip(), _LONGEST_VALUE)

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Literal, get_args
 
-from cadgraph._io.text import printable
+from cadgraph._io.text import printable, shortened
 from cadgraph.errors import AskError
 from cadgraph.model.records import Node, Unit
 
@@ -141,5 +141,4 @@ def _check(goals: list[Goal]) -> None:
 
 def shown(text: str, most: int = 80) -> str:
     """A name from a graph or a question on one line, cut to a length."""
-    clean = " ".join(printable(text[: 8 * most]).split())
-    return clean if len(clean) <= most else clean[: most - 1] + "…"
+    return shortened(" ".join(printable(text[: 8 * most]).split()), most)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from cadgraph._io.text import printable
+from cadgraph._io.text import printable, shortened
 from cadgraph.model.records import SourceFact
 
 __all__ = ["fact_rows", "fact_values"]
@@ -32,5 +32,4 @@ def _say(fact: SourceFact) -> str:
 
 
 def _short(text: str) -> str:
-    clean = printable(text)
-    return clean if len(clean) <= _LONGEST else clean[:_LONGEST] + "…"
+    return shortened(printable(text), _LONGEST)

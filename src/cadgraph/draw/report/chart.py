@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from cadgraph._io.text import shortened
 from cadgraph.draw.svg import Svg, element, joined
 
 __all__ = ["Bar", "draw_bars"]
@@ -128,6 +129,4 @@ def _listed(names: Sequence[str], room: float) -> str:
 def _shortened(text: str, width: float) -> str:
     """The text, cut to a width; nothing where not even three letters fit."""
     most = int(width / _LETTER)
-    if len(text) <= most:
-        return text
-    return str(text[: most - 1].rstrip() + "…") if most >= 5 else ""
+    return shortened(text, most) if most >= min(5, len(text)) else ""

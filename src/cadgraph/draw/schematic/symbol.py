@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from cadgraph._io.text import xml_text
+from cadgraph._io.text import shortened, xml_text
 from cadgraph.draw.svg import Svg, element, number
 from cadgraph.model.records import Junction, Terminal, Unit
 from cadgraph.query.network import Network
@@ -155,8 +155,7 @@ def instrument_letters(kind: str | None) -> str:
 
 def clean(text: str) -> str:
     """A name fit for XML, not longer than a drawing can show."""
-    told = " ".join(xml_text(text).split())
-    return told if len(told) <= _MOST else f"{told[: _MOST - 1]}…"
+    return shortened(" ".join(xml_text(text).split()), _MOST)
 
 
 def text_width(text: str, size: float) -> float:

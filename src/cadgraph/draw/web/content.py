@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from cadgraph._io.text import file_name, printable
+from cadgraph._io.text import file_name, printable, shortened
 from cadgraph.draw.colors import group_colors
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.labels import Guess, Label
@@ -299,11 +299,7 @@ def _guesses(guesses: Sequence[Guess], groups: Mapping[str, int]) -> list[list[A
 
 
 def _facts(facts: Sequence[SourceFact]) -> list[list[str]]:
-    return [[printable(fact.key), _short(printable(fact.value))] for fact in facts[:_MOST_FACTS]]
-
-
-def _short(text: str) -> str:
-    return text if len(text) <= _LONGEST_FACT else f"{text[:_LONGEST_FACT]}…"
+    return [[printable(fact.key), shortened(printable(fact.value), _LONGEST_FACT)] for fact in facts[:_MOST_FACTS]]
 
 
 def _point(values: Sequence[float]) -> Point:

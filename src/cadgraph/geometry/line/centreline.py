@@ -43,6 +43,13 @@ class Branch:
         """The least outer radius along it [m]."""
         return float(self.radius.min())
 
+    def placed(self, turn: Floats, shift: Floats) -> Branch:
+        """The same run in another place: turned by a ``(3, 3)`` rotation, then moved [m]."""
+        there = Branch(self.points @ turn.T + shift, self.radius, self.bore, self.closed)
+        # A place changes neither its length nor its radii, which are asked for of every line of a plant.
+        there.__dict__.update(length=self.length, widest=self.widest, narrowest=self.narrowest)
+        return there
+
 
 @dataclass(frozen=True)
 class End:
@@ -116,7 +123,7 @@ class Centreline:
             shift: ``(3,)`` translation after it [m].
         """
         return Centreline(
-            tuple(Branch(one.points @ turn.T + shift, one.radius, one.bore, one.closed) for one in self.branches),
+            tuple(one.placed(turn, shift) for one in self.branches),
             tuple(
                 End(turn @ one.point + shift, turn @ one.direction, one.radius, one.bore, one.branch)
                 for one in self.ends
