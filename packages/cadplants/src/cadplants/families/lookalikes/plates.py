@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from functools import partial
-
 import numpy as np
 
 from cadgraph.model.scene import Floats
-from cadplants.families.chance import chance, num, pick
-from cadplants.families.primitive.shape import FRAME, disc, family, lying, part, vessel
-from cadplants.family import Family, Model, Part
+from cadplants.builder.device import Device, families_of
+from cadplants.builder.params import among, between, chance, given
+from cadplants.builder.table import Table
+from cadplants.families.primitive.shape import FRAME, disc, lying, vessel
+from cadplants.family import Family, Model
 from cadplants.mesh_ops import Solid, extrude, merge, moved
 from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle
@@ -56,115 +56,159 @@ def _plate(
     return extrude(outline, 0.0, thick, tuple(holes))
 
 
-def _bolted(
-    size: float, count: int, low: float, high: float, round_: bool, style: ModelingStyle, inner: float = 0.0
-) -> list[Part]:
-    """Bolts in a ring through a plate about z [m]."""
-    if style.fasteners in ("none", "flange"):
-        return []
+def _bolt(t: Table, size: float, count: int, low: float, high: float, round_: bool = True, inner: float = 0.0) -> None:
+    """Puts bolts down in a ring through a plate about z [m]."""
+    if t.style.fasteners in ("none", "flange"):
+        return
     number = count if round_ else 4
     far, radius = _ring_of_holes(size, inner, round_)
-    d, bolts = 0.85 * radius, []
+    d = 0.85 * radius
     for k in range(number):
-        pose = spun("z", (k + 0.5) * 2 * np.pi / number) @ at(far)
-        bolts.append(moved(merge([cylinder(d, low, high, 8), hexagon(3.4 * d, high - 1.6 * d, high)]), pose))
-    return [Part(one, "bolt", "fastener", "", _HELD, True) for one in bolts]
+        bolt = merge([cylinder(d, low, high, 8), hexagon(3.4 * d, high - 1.6 * d, high)])
+        t.spun("z", (k + 0.5) * 2 * np.pi / number).at(far).add("bolt", bolt, own=False)
 
 
-def _based(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+_GAPS = (0.0, 0.002, 0.004)
+_GAP = "between the flange and its lid"
+
+
+class Based(
+    Device, name="post/plate like a flange", group=FRAME, label="post", sizes=(15,), weight=1.5, grain="fitting"
+):
     """A round or square post on a plate like a flange, drilled or plain, with or without anchors and ribs."""
-    r, high = num(rng, 0.02, 0.08), num(rng, 0.3, 3.0)
-    round_, count, thick = chance(rng, 0.5), pick(rng, 4, 4, 6, 8), num(rng, 0.008, 0.025)
-    size = r * num(rng, 1.7, 2.6)
-    plate = _plate(size, thick, round_, count, style)
-    bore = 0.88 * r if style.hollow else 0.0
-    post = moved(ring(bore, r, 0.0, high, style.round(r)), at(0, 0, thick))
-    parts = [part("base plate", plate, color="steel"), part("post", post, color="steel")]
-    if chance(rng, 0.4):
-        top = moved(_plate(size, thick, round_, count, style), at(0, 0, thick + high))
-        parts.append(part("plate", top, color="steel"))
-    parts += _bolted(size, count, -0.05, thick + 0.02, round_, style)
-    return Model(parts)
+
+    radius: float = between(0.02, 0.08, "of the post", "m")
+    height: float = between(0.3, 3.0, "of the post", "m")
+    round_: bool = chance(0.5, "its plate is round")
+    anchors: int = among((4, 4, 6, 8), "holes of a round plate")
+    thick: float = between(0.008, 0.025, "of the plate", "m")
+    size: float = between(1.7, 2.6, "half the width of the plate / radius of the post")
+    topped: bool = chance(0.4, "a plate on top too")
+
+    def build(self, t: Table) -> Model:
+        r, thick, size = self.radius, self.thick, self.radius * self.size
+        plate = _plate(size, thick, self.round_, self.anchors, t.style)
+        t.add("base plate", plate)
+        bore = 0.88 * r if t.style.hollow else 0.0
+        t.at(0, 0, thick).add("post", ring(bore, r, 0.0, self.height, t.n(r)))
+        if self.topped:
+            t.at(0, 0, thick + self.height).add("plate", plate)
+        _bolt(t, size, self.anchors, -0.05, thick + 0.02, self.round_)
+        return t.model()
 
 
-def _lidded(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class UprightPipe(
+    Device,
+    name="pipe/upright between flanges",
+    group="Pipe assembly",
+    label="pipe",
+    sizes=(15,),
+    grain="fitting",
+):
     """An upright piece of pipe with a flange or a blind flange on top and one below: like a post on its plates."""
-    dn = pick(rng, 40, 50, 80, 100, 150)
-    size, r, high = FLANGES[dn], PIPES[dn].radius, num(rng, 0.3, 2.0)
-    bore = PIPES[dn].bore if style.hollow else 0.0
-    rim, thick = size.outer / 2, size.thickness
-    low = _plate(rim, thick, True, size.n_bolts, style, PIPES[dn].bore, True)
-    tube = moved(ring(bore, r, 0.0, high, style.round(r)), at(0, 0, thick))
-    parts = [part("pipe", tube, color="pipe"), part("flange", low, color="flange")]
-    parts.append(part("flange", moved(low, at(0, 0, thick + high)), color="flange"))
-    top = 2 * thick + high
-    gap = pick(rng, 0.0, 0.002, 0.004)
-    if chance(rng, 0.7):
-        lid = moved(_plate(rim, thick, True, size.n_bolts, style, PIPES[dn].bore), at(0, 0, top + gap))
-        parts.append(part("blind flange", lid, color="flange"))
-        parts += _bolted(rim, size.n_bolts, top - 1.8 * thick, top + gap + 1.8 * thick, True, style, PIPES[dn].bore)
-    return Model(parts)
+
+    nominal: int = among((40, 50, 80, 100, 150), "nominal size of the pipe", "mm")
+    height: float = between(0.3, 2.0, "of the pipe", "m")
+    gap: float = among(_GAPS, _GAP, "m")
+    lidded: bool = chance(0.7, "a blind flange on top")
+
+    def build(self, t: Table) -> Model:
+        pipe, size, high = PIPES[self.nominal], FLANGES[self.nominal], self.height
+        rim, thick, count = size.outer / 2, size.thickness, size.n_bolts
+        low = _plate(rim, thick, True, count, t.style, pipe.bore, True)
+        bore = pipe.bore if t.style.hollow else 0.0
+        t.at(0, 0, thick).add("pipe", ring(bore, pipe.radius, 0.0, high, t.n(pipe.radius)))
+        t.add("flange", low)
+        t.at(0, 0, thick + high).add("flange", low)
+        top = 2 * thick + high
+        if self.lidded:
+            lid = _plate(rim, thick, True, count, t.style, pipe.bore)
+            t.at(0, 0, top + self.gap).add("blind flange", lid)
+            _bolt(t, rim, count, top - 1.8 * thick, top + self.gap + 1.8 * thick, inner=pipe.bore)
+        return t.model()
 
 
-def _manway(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class Manway(Device, name="manway/neck and lid", group="Tank", label="tank", sizes=(15,), weight=1.2):
     """A vessel or a wide pipe's end with a manway: a wide short neck, its flange and its lid, bolted or not."""
-    radius, rise = num(rng, 0.2, 0.32), num(rng, 0.1, 0.3)
-    thick, rim = num(rng, 0.015, 0.03), radius * num(rng, 1.2, 1.35)
-    wide = radius * num(rng, 1.6, 3.0)
-    body = moved(vessel(wide, -wide, wide, 0.5 * wide, style), at(0, 0, 1.6 * wide))
-    neck = ring(0.94 * radius if style.hollow else 0.0, radius, -0.3 * wide, rise, style.round(radius))
-    plate = moved(_plate(rim, thick, True, 12, style, 0.94 * radius, True), at(0, 0, rise - thick))
-    gap = pick(rng, 0.0, 0.002, 0.004)
-    lid = moved(_plate(rim, thick, True, 12, style, 0.94 * radius), at(0, 0, rise + gap))
-    more = []
-    if chance(rng, 0.5):
-        more += [box((0.2, 0.015, 0.05), (0, 0, rise + gap + thick + 0.02))]
-    if chance(rng, 0.4):
-        more += [
-            moved(cylinder(0.015, rise - 0.2, rise + 0.25, 8), at(1.15 * rim)),
-            box((1.2 * rim, 0.02, 0.02), (0.6 * rim, 0, rise + 0.24)),
-        ]
-    side = chance(rng, 0.6)
-    pose = at(wide * 0.98, 0, 1.6 * wide) @ spun("y", np.pi / 2) if side else at(0, 0, 3.05 * wide)
-    pieces = [[neck, plate], [lid, *more]] if chance(rng, 0.6) else [[neck, plate, lid, *more]]
-    parts = [part("shell", body, color="tank", bundle="shell")]
-    parts += [part("manway", *(moved(one, pose) for one in some), color="tank", bundle="manway") for some in pieces]
-    bolts = _bolted(rim, 12, rise - 2 * thick, rise + gap + 2 * thick, True, style, 0.94 * radius)
-    parts += [Part(moved(b.solid, pose), b.name, b.color, b.bundle, b.group, b.fine) for b in bolts]
-    legs = [box((0.1, 0.1, 1.2 * wide), (x * wide, y * wide, 0.6 * wide)) for x in (-0.55, 0.55) for y in (-0.55, 0.55)]
-    return Model([*parts, *(part("tank leg", one, color="steel", bundle="tank leg") for one in legs)], kind="tank")
+
+    radius: float = between(0.2, 0.32, "of the neck", "m")
+    rise: float = between(0.1, 0.3, "of the neck", "m")
+    thick: float = between(0.015, 0.03, "of flange and lid", "m")
+    rim: float = between(1.2, 1.35, "radius of the flange / of the neck")
+    wide: float = between(1.6, 3.0, "radius of the vessel / of the neck")
+    gap: float = among(_GAPS, _GAP, "m")
+    gripped: bool = chance(0.5, "a grip on the lid")
+    hung: bool = chance(0.4, "a davit for the lid")
+    side: bool = chance(0.6, "it is at the vessel's side, not on top")
+    apart: bool = chance(0.6, "neck and lid are two meshes")
+
+    def build(self, t: Table) -> Model:
+        radius, rise, thick, gap, style = self.radius, self.rise, self.thick, self.gap, t.style
+        wide, rim, bore = radius * self.wide, radius * self.rim, 0.94 * radius
+        body = moved(vessel(wide, -wide, wide, 0.5 * wide, style), at(0, 0, 1.6 * wide))
+        neck = ring(bore if style.hollow else 0.0, radius, -0.3 * wide, rise, t.n(radius))
+        plate = moved(_plate(rim, thick, True, 12, style, bore, True), at(0, 0, rise - thick))
+        lid = [moved(_plate(rim, thick, True, 12, style, bore), at(0, 0, rise + gap))]
+        if self.gripped:
+            lid.append(box((0.2, 0.015, 0.05), (0, 0, rise + gap + thick + 0.02)))
+        if self.hung:
+            lid.append(moved(cylinder(0.015, rise - 0.2, rise + 0.25, 8), at(1.15 * rim)))
+            lid.append(box((1.2 * rim, 0.02, 0.02), (0.6 * rim, 0, rise + 0.24)))
+        t.bundled("shell").add("shell", body)
+        at_side = at(wide * 0.98, 0, 1.6 * wide) @ spun("y", np.pi / 2)
+        there = t.bundled("manway").moved(at_side if self.side else at(0, 0, 3.05 * wide))
+        for some in [[neck, plate], lid] if self.apart else [[neck, plate, *lid]]:
+            there.add("manway", *some)
+        _bolt(there, rim, 12, rise - 2 * thick, rise + gap + 2 * thick, inner=bore)
+        for x in (-0.55, 0.55):
+            for y in (-0.55, 0.55):
+                leg = box((0.1, 0.1, 1.2 * wide), (x * wide, y * wide, 0.6 * wide))
+                t.bundled("tank leg").add("tank leg", leg, own=True)
+        return t.model(kind="tank")
 
 
-def _disc_end(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class PlateOnEnd(
+    Device,
+    name="flange/plate on end",
+    place="end",
+    group="Pipe assembly",
+    label="flange",
+    weight=1.5,
+    grain="fitting",
+):
     """A plate welded to the end of a pipe: a flange with a bore, or a lid, or a base plate of a dummy leg."""
-    size, n = FLANGES[dn], FLANGES[dn].n_bolts
-    bore = PIPES[dn].bore
-    flange = lying(_plate(size.outer / 2, size.thickness, True, n, style, bore, True))
-    parts = [part("flange", flange, color="flange", bundle="flange")]
-    gap = pick(rng, 0.0, 0.002, 0.004)
-    if chance(rng, 0.5):
-        lid = lying(_plate(size.outer / 2, size.thickness, True, n, style, bore), size.thickness + gap)
-        parts.append(part("blind flange", lid, color="flange", bundle="blind flange"))
-    return Model(parts)
+
+    gap: float = among(_GAPS, _GAP, "m")
+    lidded: bool = chance(0.5, "a blind flange before it")
+
+    def build(self, t: Table) -> Model:
+        rim, thick, count, bore = t.flange.outer / 2, t.flange.thickness, t.flange.n_bolts, t.pipe.bore
+        t.bundled("flange").add("flange", lying(_plate(rim, thick, True, count, t.style, bore, True)))
+        if self.lidded:
+            lid = lying(_plate(rim, thick, True, count, t.style, bore), thick + self.gap)
+            t.bundled("blind flange").add("blind flange", lid)
+        return t.model()
 
 
-def _shoe_plate(dn: int, style: ModelingStyle, rng: np.random.Generator, height: float) -> Model:
+class DummyLeg(
+    Device, name="bracket/pipe on plate", place="carrier", group="Connection assembly", label="bracket", grain="fitting"
+):
     """A dummy leg: a piece of pipe welded under a line, on a round or square plate."""
-    r = PIPES[dn].radius
-    leg, thick, round_ = r * num(rng, 0.5, 0.9), num(rng, 0.008, 0.02), chance(rng, 0.4)
-    size = leg * num(rng, 1.6, 2.4)
-    tube = disc(leg, -height + thick, -0.8 * r, style)
-    plate = moved(_plate(size, thick, round_, 4, style), at(0, 0, -height))
-    parts = [part("bracket", tube, color="pipe"), part("base plate", plate, color="steel", group=FRAME)]
-    bolts = _bolted(size, 4, -0.04, thick + 0.02, round_, style)
-    parts += [Part(moved(b.solid, at(0, 0, -height)), b.name, b.color, b.bundle, "", b.fine) for b in bolts]
-    return Model(parts)
+
+    height: float = given(1.1, "of the line's axis over the floor", "m")
+    leg: float = between(0.5, 0.9, "radius of the leg / of the line")
+    thick: float = between(0.008, 0.02, "of the plate", "m")
+    round_: bool = chance(0.4, "its plate is round")
+    size: float = between(1.6, 2.4, "half the width of the plate / radius of the leg")
+
+    def build(self, t: Table) -> Model:
+        r = t.pipe.radius
+        leg, size = r * self.leg, r * self.leg * self.size
+        t.add("bracket", disc(leg, -self.height + self.thick, -0.8 * r, t.style), of="pipe")
+        t = t.at(0, 0, -self.height)
+        t.add("base plate", _plate(size, self.thick, self.round_, 4, t.style))
+        _bolt(t, size, 4, -0.04, self.thick + 0.02, self.round_)
+        return t.model()
 
 
-PLATES_ALIKE: tuple[Family, ...] = (
-    family("post/plate like a flange", "floor", FRAME, _based, "post", (15,), 1.5, "fitting"),
-    family("pipe/upright between flanges", "floor", _PIPE, _lidded, "pipe", (15,), 1.0, "fitting"),
-    family("manway/neck and lid", "floor", "Tank", _manway, "tank", (15,), 1.2),
-    family("flange/plate on end", "end", _PIPE, partial(_disc_end), "flange", weight=1.5, grain="fitting"),
-    family("bracket/pipe on plate", "carrier", _HELD, _shoe_plate, weight=1.0, grain="fitting"),
-)
+PLATES_ALIKE: tuple[Family, ...] = families_of(Based, UprightPipe, Manway, PlateOnEnd, DummyLeg)
