@@ -434,19 +434,6 @@ class Duckfoot(Fitting, name="elbow/duckfoot", place="end", sizes=SIZES[SIZES.in
 
 
 BENDS = families_of(
-    MitredLoop,
-    BeadedLoop,
-    PulledLoop,
-    CastTurn,
-    GroovedLoop,
-    BandedLoop,
-    SocketTurn,
-    GluedLoop,
-    CompressionTurn,
-    MitredTurn,
-    BandedTurn,
-    Street,
-    Reducing,
-    Return,
-    Duckfoot,
-)
+    MitredLoop, BeadedLoop, PulledLoop, CastTurn, GroovedLoop, BandedLoop, SocketTurn, GluedLoop, CompressionTurn,
+    MitredTurn, BandedTurn, Street, Reducing, Return, Duckfoot,
+)  # fmt: skip
