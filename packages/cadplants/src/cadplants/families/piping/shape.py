@@ -11,7 +11,7 @@ from cadgraph.model.scene import Floats
 from cadplants.builder.device import Device
 from cadplants.builder.params import Params, among, between, given
 from cadplants.builder.table import Table
-from cadplants.family import Build, Family, Part, placed
+from cadplants.family import Part
 from cadplants.flange import bolts, flange, flange_length, gasket, nut_room, plate_thickness
 from cadplants.mesh_ops import Solid, about_x, extrude, loft, merge, moved, weld
 from cadplants.modeling_style import ModelingStyle
@@ -30,7 +30,6 @@ __all__ = [
     "QUARTERS",
     "ROLL",
     "SMALL",
-    "STEEL",
     "UP",
     "Fitting",
     "Outline",
@@ -41,13 +40,11 @@ __all__ = [
     "bolting",
     "counter",
     "drilled",
-    "family",
     "flat_flange",
     "grooved",
     "joint",
     "knurled",
     "lathe",
-    "mirrored",
     "mouth",
     "necks",
     "notched",
@@ -57,13 +54,12 @@ __all__ = [
     "seated",
     "sized",
     "swell_room",
-    "tail",
     "tails",
     "up_to",
 ]
 
 Outline = Sequence[tuple[float, float]]
-BOLTED, STEEL = "Connection assembly", "Structural element"
+BOLTED = "Connection assembly"
 SMALL = tuple(dn for dn in SIZES if dn <= 50)
 
 ENDS = ("open", "cap", "flange", "lid")
@@ -72,18 +68,6 @@ QUARTERS, ROLL = (0.0, 0.5, 1.0, 1.5), "how it is turned about the pipe / half a
 UP, BACK = spun("y", -np.pi / 2), spun("z", np.pi)
 
 _COLORS = {"flange": "flange", "blind flange": "flange", "gasket": "gasket", "pipe": "pipe", "pipe cap": "pipe"}
-
-
-def family(
-    name: str,
-    build: Build,
-    sizes: tuple[int, ...] = SIZES,
-    place: str = "inline",
-    weight: float = 0.5,
-    grain: str = "fitting",
-) -> Family:
-    """A family of fittings; by default its pieces stay apart, since neighbours of other names come with them."""
-    return Family(name, place, "Pipe assembly", name.split("/")[0], build, sizes, grain, weight)
 
 
 class Fitting(Device, place="inline", group="Pipe assembly", weight=0.5, grain="fitting"):
@@ -330,18 +314,6 @@ def tails(*ends: str) -> Callable[[Any, Any], Tail]:
     return lambda source, _: Tail.draw(source, {"ends": ends})
 
 
-def tail(dn: int, style: ModelingStyle, rng: np.random.Generator, pose: Floats, kinds: str = "ocfb") -> list[Part]:
-    """What goes on from a mouth along x of the pose: a piece of pipe, open or with a cap, a flange or a lid on it."""
-    length = float(rng.uniform(0.04, 0.25)) + 1.5 * PIPES[dn].outer
-    parts = [Part(moved(pipe_x(dn, 0.0, length, style), pose), "pipe", "pipe")]
-    end, kind = pose @ at(length), kinds[int(rng.integers(len(kinds)))]
-    if kind == "c":
-        parts += parts_of(cap(dn, style), end)
-    elif kind in "fb":
-        parts += joint(dn, style, end, blind=kind == "b", open_=kind == "f")[0]
-    return parts
-
-
 def bend_path(radius: float, turn: float, steps: int, lead: float = 0.0) -> tuple[Floats, float]:
     """A round bend from the origin along +x towards +y with straight ends, and its centre to end [m]."""
     tangent = radius * float(np.tan(turn / 2)) if turn < 3.0 else 0.0
@@ -388,11 +360,6 @@ def seated(outline: Outline, run: float, sides: int, bore: float = 0.0, sunk: fl
         inner = [np.column_stack([bore * unit, np.full(sides, top)]), foot(bore, 0.0)]
         return weld([loft([*loops, *inner], closed=True)])
     return weld([loft([loops[0].mean(axis=0)[None], *loops, loops[-1].mean(axis=0)[None]])])
-
-
-def mirrored(parts: Sequence[Part], length: float) -> list[Part]:
-    """The same pieces at the other end of something this long [m]."""
-    return placed(parts, at(length) @ np.diag([-1.0, 1.0, 1.0, 1.0]))
 
 
 def swell_room(dn: int) -> float:
