@@ -84,10 +84,7 @@ class Further(Params):
     plugged: bool = chance(0.3, "a plug in it", when=lambda p: p.design in ("banded", "socket", "hex"))
     square: bool = chance(0.5, "the plug's head is square, not hexagonal", when=lambda p: p.plugged)
     piped: bool = chance(
-        0.9,
-        "a pipe on it",
-        when=lambda p: not p.plugged and p.design not in ("flanged", "grooved"),
-        otherwise=True,
+        0.9, "a pipe on it", when=lambda p: not p.plugged and p.design not in ("flanged", "grooved"), otherwise=True
     )
     tail: Tail = nested(
         lambda s, p: tails(*_FURTHER.get(p.design, ("open", "open", "cap", "flange")))(s, p),

@@ -8,18 +8,7 @@ from cadgraph.model.scene import Floats
 from cadplants.builder.device import families_of
 from cadplants.builder.params import among, between, given, several, whole
 from cadplants.builder.table import Table, outline
-from cadplants.families.piping.shape import (
-    BACK,
-    Fitting,
-    barrel,
-    knurled,
-    lathe,
-    parts_of,
-    pipe_x,
-    prism,
-    sized,
-    up_to,
-)
+from cadplants.families.piping.shape import BACK, Fitting, barrel, knurled, lathe, parts_of, pipe_x, prism, sized, up_to
 from cadplants.family import Model
 from cadplants.flange import flange, flange_length
 from cadplants.mesh_ops import Solid, moved
@@ -90,11 +79,7 @@ class _Between(Fitting, weight=1.0):
     of: str = among(("rubber", "trim", "handle"), "kind of material")
     # A flange meets the counter-flange that the line brings along, no bare pipe.
     lead: float = among(
-        (0.0, 0.06),
-        "length of the pipe before and behind it",
-        "m",
-        when=lambda p: p.end != "flange",
-        otherwise=0.0,
+        (0.0, 0.06), "length of the pipe before and behind it", "m", when=lambda p: p.end != "flange", otherwise=0.0
     )
 
     def build(self, t: Table) -> Model:
