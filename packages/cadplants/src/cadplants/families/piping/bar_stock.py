@@ -2,179 +2,184 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from typing import ClassVar
 
 import numpy as np
 
-from cadplants.families.chance import pick
-from cadplants.families.piping.coupling import half_band
+from cadplants.builder.device import families_of
+from cadplants.builder.params import among, between, nested, several
+from cadplants.builder.table import Table, outline
+from cadplants.families.piping.coupling import ferrule, hygienic_clamp
 from cadplants.families.piping.shape import (
-    BOLTED,
+    BACK,
+    QUARTERS,
+    ROLL,
     SMALL,
+    Fitting,
+    Tail,
+    barrel,
     bend_path,
     bolting,
     drilled,
-    family,
     lathe,
     parts_of,
     pipe_x,
     prism,
-    tail,
+    sized,
+    tails,
+    up_to,
 )
-from cadplants.family import Build, Family, Model, Part
+from cadplants.family import Model
 from cadplants.flange import flange, flange_length, plate_thickness
-from cadplants.mesh_ops import Solid, merge, moved, tube
-from cadplants.modeling_style import ModelingStyle
+from cadplants.mesh_ops import merge, moved, tube
 from cadplants.polygon import rounded_rectangle
-from cadplants.primitives import box, cylinder
-from cadplants.standards import FLANGES, PIPES, SIZES
+from cadplants.primitives import box
 from cadplants.transforms import at, spun
-from cadplants.valve_body import bore_of
 
 __all__ = ["SPECIALS"]
 
 
-def _block(name: str, turns: Sequence[float]) -> Build:
-    """A builder of tees and crosses cut of square bar, with tube nuts, hexagons or shoulders at their mouths."""
-
-    def build(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
-        """A brass or steel block with mouths on its sides (ISO 8434-1, ASME B16.11 bar stock)."""
-        r, n = PIPES[dn].radius, style.round(1.3 * PIPES[dn].radius)
-        half, kind = float(rng.uniform(1.25, 1.6)) * r + 0.003, int(rng.integers(3))
-        out = (1.0 * r + 0.008) if kind < 2 else 0.35 * r + 0.003
-        reach = half + out
-        bored = 0.98 * r if style.hollow else 0.0
-        body = [box((2 * half, 2 * half, 2 * half), (reach, 0, 0))]
-        nuts: list[Part] = []
-        rest: list[Part] = []
-        for turn in (np.pi, 0.0, *turns):
-            way = at(reach) @ spun("y", -turn)
-            if kind == 0:
-                body.append(moved(lathe([(1.08 * r, half - 0.001), (1.08 * r, reach - 0.3 * out)], n, bored), way))
-                nut = prism(2.55 * r + 0.006, 6, half + 0.25 * out, reach, bored, n)
-                nuts.append(Part(moved(nut, way), "nut", "trim", "", BOLTED))
-            elif kind == 1:
-                body.append(moved(prism(1.9 * half, 8, half - 0.001, reach, bored, n), way))
-            else:
-                body.append(moved(lathe([(1.2 * r, half - 0.001), (1.15 * r, reach)], n, bored), way))
-            if turn in turns:
-                rest += tail(dn, style, rng, way @ at(reach), "oc")
-        return Model([Part(merge(body), name, "trim"), *nuts, *rest], round(2 * reach, 9), "welded")
-
-    return build
+_GOES_ON = "what goes on from its branches"
 
 
-def _split(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class TeeBlock(Fitting, name="tee/bar stock", sizes=SMALL):
+    """A brass or steel block with mouths on its sides (ISO 8434-1, ASME B16.11 bar stock)."""
+
+    turns: ClassVar[tuple[float, ...]] = (np.pi / 2,)  # where its branches point, from +x
+
+    half: float = between(1.25, 1.6, "half its width, less 3 mm / radius of the pipe")
+    mouths: str = among(("nuts", "octagons", "shoulders"), "what its mouths have")
+    ends: tuple[Tail, ...] = several(tails("open", "cap"), lambda _: 1, _GOES_ON)
+
+    def build(self, t: Table) -> Model:
+        r, n, _ = sized(t.dn, t.style, 1.3)
+        half, made = self.half * r + 0.003, self.mouths
+        out = 0.35 * r + 0.003 if made == "shoulders" else 1.0 * r + 0.008
+        reach, bored = half + out, 0.98 * r if t.style.hollow else 0.0
+        mouth = {
+            "nuts": lambda: barrel(1.08 * r, half - 0.001, reach - 0.3 * out, n, bored),
+            "octagons": lambda: prism(1.9 * half, 8, half - 0.001, reach, bored, n),
+            "shoulders": lambda: lathe(outline(1.2 * r, half - 0.001, 1.15 * r, reach), n, bored),
+        }[made]()
+        ways = [at(reach) @ spun("y", -turn) for turn in (np.pi, 0.0, *self.turns)]
+        body = box((2 * half, 2 * half, 2 * half), (reach, 0, 0))
+        t.add(self.label, body, *(moved(mouth, way) for way in ways), of="trim")
+        if made == "nuts":
+            nut = prism(2.55 * r + 0.006, 6, half + 0.25 * out, reach, bored, n)
+            for way in ways:
+                t.moved(way).add("nut", nut, of="trim", own=False, fine=False)
+        for way, end in zip(ways[2:], self.ends, strict=True):
+            end.build(t.moved(way).at(reach))
+        return t.model(round(2 * reach, 9), "welded")
+
+
+class CrossBlock(TeeBlock, name="cross/bar stock", sizes=SMALL):
+    """A block with four mouths on its sides (ISO 8434-1, ASME B16.11 bar stock)."""
+
+    turns: ClassVar[tuple[float, ...]] = (np.pi / 2, -np.pi / 2)
+
+    ends: tuple[Tail, ...] = several(tails("open", "cap"), lambda _: 2, _GOES_ON)
+
+
+class SplitFlange(Fitting, name="flange/split", bundle="flange", sizes=up_to(100)):
     """A split flange (ISO 6162): two clamp halves behind a collar, four bolts into a square port block."""
-    r, n = PIPES[dn].radius, style.round(1.3 * PIPES[dn].radius)
-    lead, thick, bore = float(rng.uniform(0.05, 0.2)), 0.55 * r + 0.012, bore_of(dn, style)
-    collar, port = 0.3 * r + 0.005, 0.8 * r + 0.015
-    tall, wide, bolt = 1.9 * r + 0.02, 1.5 * r + 0.014, 0.14 * r + 0.006
-    face = lead + thick
-    head = lathe([(r, 0.0), (r, face - collar), (1.35 * r, face - collar), (1.35 * r, face)], n, bore)
-    spots = np.array([[sx * (wide - 1.4 * bolt), sy * (tall - 1.6 * bolt)] for sx in (-1, 1) for sy in (-1, 1)])
-    angles = np.linspace(np.pi, 0, 11)
-    arch = 1.36 * r * np.column_stack([np.cos(angles), np.sin(angles)])
-    rim = np.array(
-        [[wide, 0.0], [wide, 0.75 * tall], [0.8 * wide, tall], [-0.8 * wide, tall], [-wide, 0.75 * tall], [-wide, 0.0]]
-    )
-    outline = np.vstack([rim, arch]) + np.array([0.0, 0.0005])
-    half = drilled(outline, lead, face, 0.0, spots[spots[:, 1] > 0], 0.55 * bolt, style, n)
-    block = drilled(
-        rounded_rectangle(2 * wide, 2 * tall, 0.15 * wide, 2), face, face + port, bore, spots, 0.5 * bolt, style, n
-    )
-    total = face + port + lead
-    parts = [Part(head, "flange", "flange", "flange")]
-    parts += [Part(moved(half, spun("x", t)), "flange", "flange", "flange") for t in (0.0, np.pi)]
-    parts += [Part(block, "flange", "valve"), Part(pipe_x(dn, face + port, total, style), "pipe", "pipe")]
-    for y, z in spots:
-        parts += bolting(1, 0.0, bolt, lead, face + port, style, "", at(0, float(y), float(z)))
-    return Model(parts, round(total, 9), "welded")
+
+    lead: float = between(0.05, 0.2, "length of the pipe before it", "m")
+
+    def build(self, t: Table) -> Model:
+        r, n, bore = sized(t.dn, t.style, 1.3)
+        lead, thick, collar, port, rim = self.lead, 0.55 * r + 0.012, 0.3 * r + 0.005, 0.8 * r + 0.015, 1.35 * r
+        tall, wide, bolt = 1.9 * r + 0.02, 1.5 * r + 0.014, 0.14 * r + 0.006
+        face = lead + thick
+        total = face + port + lead
+        t.add("flange", lathe(outline(r, 0.0, r, face - collar, rim, face - collar, rim, face), n, bore))
+        spots = np.array([[sx * (wide - 1.4 * bolt), sy * (tall - 1.6 * bolt)] for sx in (-1, 1) for sy in (-1, 1)])
+        angles = np.linspace(np.pi, 0, 11)
+        arch = 1.36 * r * np.column_stack([np.cos(angles), np.sin(angles)])
+        corners = np.array([[1, 0], [1, 0.75], [0.8, 1], [-0.8, 1], [-1, 0.75], [-1, 0]]) * [wide, tall]
+        shape = np.vstack([corners, arch]) + np.array([0.0, 0.0005])
+        half = drilled(shape, lead, face, 0.0, spots[spots[:, 1] > 0], 0.55 * bolt, t.style, n)
+        for turn in (0.0, np.pi):
+            t.spun("x", turn).add("flange", half)
+        square = rounded_rectangle(2 * wide, 2 * tall, 0.15 * wide, 2)
+        block = drilled(square, face, face + port, bore, spots, 0.5 * bolt, t.style, n)
+        t.add("flange", block, of="valve", own=False)
+        t.add("pipe", pipe_x(t.dn, face + port, total, t.style), own=False)
+        for y, z in spots:
+            t.extend(bolting(1, 0.0, bolt, lead, face + port, t.style, "", at(0, float(y), float(z))))
+        return t.model(round(total, 9), "welded")
 
 
-def _insulated(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class Insulating(Fitting, name="gasket/insulating"):
     """An insulating joint: a thick gasket, sleeves' ends and pairs of washers under every nut, between two flanges."""
-    size, plate, neck = FLANGES[dn], plate_thickness(dn), flange_length(dn, style)
-    gap, lead = pick(rng, 0.003, 0.0045, 0.006), float(rng.uniform(0.02, 0.1))
-    outer, n = pick(rng, 0.5 * (size.circle - size.bolt) - 0.001, 0.49 * size.raised), style.round(size.circle / 2)
-    face, total = lead + neck, 2 * (lead + neck) + gap
-    parts = [Part(pipe_x(dn, 0.0, lead, style), "pipe", "pipe")]
-    parts += parts_of(flange(dn, style), at(face) @ spun("z", np.pi))
-    parts.append(Part(lathe([(outer, face), (outer, face + gap)], n, PIPES[dn].radius), "gasket", "handle"))
-    parts += parts_of(flange(dn, style), at(face + gap))
-    low, high = face - plate, face + gap + plate
-    disc, thin = 1.05 * size.bolt, 0.003
-    for k in range(size.n_bolts):
-        way = spun("x", (2 * k + 1) * np.pi / size.n_bolts) @ at(0, size.circle / 2)
-        pair = [
-            lathe([(disc, a), (disc, a + thin)], 12, 0.5 * size.bolt)
-            for a in (low - 2 * thin, low - thin, high, high + thin)
-        ]
-        parts.append(Part(moved(merge(pair), way), "washer", "fastener", "", BOLTED, True))
-    parts += bolting(size.n_bolts, size.circle / 2, size.bolt, low - 2 * thin, high + 2 * thin, style)
-    parts.append(Part(pipe_x(dn, total - lead, total, style), "pipe", "pipe"))
-    return Model(parts, round(total, 9), "welded")
+
+    gap: float = among((0.003, 0.0045, 0.006), "thickness of its gasket", "m")
+    lead: float = between(0.02, 0.1, "length of the pipe before and behind it", "m")
+    reach: str = among(("bolts", "raised face"), "how far out its gasket goes")
+
+    def build(self, t: Table) -> Model:
+        size, plate, lead, gap = t.flange, plate_thickness(t.dn), self.lead, self.gap
+        outer = 0.5 * (size.circle - size.bolt) - 0.001 if self.reach == "bolts" else 0.49 * size.raised
+        face = lead + flange_length(t.dn, t.style)
+        total, one = 2 * face + gap, parts_of(flange(t.dn, t.style))
+        t.add("pipe", pipe_x(t.dn, 0.0, lead, t.style))
+        t.at(face).moved(BACK).extend(one)
+        t.add("gasket", barrel(outer, face, face + gap, t.n(size.circle / 2), t.pipe.radius), of="handle")
+        t.at(face + gap).extend(one)
+        disc, thin = 1.05 * size.bolt, 0.003
+        low, high = face - plate - 2 * thin, face + gap + plate + 2 * thin
+        places = (low, low + thin, high - 2 * thin, high - thin)
+        pair = merge([barrel(disc, a, a + thin, 12, 0.5 * size.bolt) for a in places])
+        for k in range(size.n_bolts):
+            t.spun("x", (2 * k + 1) * np.pi / size.n_bolts).at(0, size.circle / 2).add("washer", pair)
+        t.extend(bolting(size.n_bolts, size.circle / 2, size.bolt, low, high, t.style))
+        t.add("pipe", pipe_x(t.dn, total - lead, total, t.style))
+        return t.model(round(total, 9), "welded")
 
 
-def _elbow_union(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class UnionElbow(Fitting, name="union/elbow", place="end", sizes=SMALL, weight=1.0):
     """A union elbow on a pipe's end (EN 10242 UA1): a banded or hexagon mouth, a bend, a big nut, a tail."""
-    r, n = PIPES[dn].radius, style.round(1.3 * PIPES[dn].radius)
-    turn, body, deep = pick(rng, 0.5, 0.5, 0.25) * np.pi, 1.15 * r + 0.0015, 0.8 * r + 0.011
-    path, reach = bend_path(float(rng.uniform(1.25, 1.7)) * body, turn, style.bend(2.5 * body, turn), 0.5 * deep)
-    start = 0.5 * deep
-    end = prism(2.4 * r + 0.006, int(rng.choice([6, 8])), 0.0, deep, 0.98 * r if style.hollow else 0.0, n)
-    far = at(start + reach) @ spun("z", turn) @ at(reach)
-    nut, out = 0.8 * r + 0.01, 0.5 * r + 0.008
-    seat = lathe([(1.3 * r, -0.3 * nut), (1.3 * r, 0.35 * nut)], n)
-    elbow_ = merge([end, moved(tube(path, body, 0.0, n), at(start)), moved(seat, far)])
-    ring_ = prism(3.2 * r + 0.01, int(rng.choice([6, 8])), 0.0, nut, 1.1 * r, n)
-    piece = lathe(
-        [(1.25 * r, 0.35 * nut), (1.25 * r, nut), (1.08 * r, nut + 0.1 * r), (1.08 * r, nut + out)],
-        n,
-        bore_of(dn, style),
-    )
-    parts = [
-        Part(elbow_, "elbow", "trim"),
-        Part(moved(ring_, far), "union", "trim"),
-        Part(moved(piece, far), "union", "trim"),
-    ]
-    parts += tail(dn, style, rng, far @ at(nut + out), "ooc")
-    roll = spun("x", pick(rng, 0.0, 0.5, 1.0, 1.5) * np.pi)
-    return Model([Part(moved(p.solid, roll), p.name, p.color, p.bundle, p.group, p.fine) for p in parts])
+
+    turn: float = among((0.5, 0.5, 0.25), "of the bend / half a turn")
+    radius: float = between(1.25, 1.7, "of the bend / of its body")
+    flats: int = among((6, 8), "flats of its mouth")
+    corners: int = among((6, 8), "flats of its nut")
+    tail: Tail = nested(tails("open", "open", "cap"), "what goes on from it")
+    roll: float = among(QUARTERS, ROLL)
+
+    def build(self, t: Table) -> Model:
+        r, n, bore = sized(t.dn, t.style, 1.3)
+        turn, body, deep = self.turn * np.pi, 1.15 * r + 0.0015, 0.8 * r + 0.011
+        path, reach = bend_path(self.radius * body, turn, t.style.bend(2.5 * body, turn), 0.5 * deep)
+        start, nut, out = 0.5 * deep, 0.8 * r + 0.01, 0.5 * r + 0.008
+        end = prism(2.4 * r + 0.006, self.flats, 0.0, deep, 0.98 * r if t.style.hollow else 0.0, n)
+        far = at(start + reach) @ spun("z", turn) @ at(reach)
+        seat = moved(barrel(1.3 * r, -0.3 * nut, 0.35 * nut, n), far)
+        t = t.spun("x", self.roll * np.pi)
+        t.add("elbow", end, moved(tube(path, body, 0.0, n), at(start)), seat, of="trim")
+        t = t.moved(far)
+        t.add("union", prism(3.2 * r + 0.01, self.corners, 0.0, nut, 1.1 * r, n))
+        piece = outline(1.25 * r, 0.35 * nut, 1.25 * r, nut, 1.08 * r, nut + 0.1 * r, 1.08 * r, nut + out)
+        t.add("union", lathe(piece, n, bore))
+        self.tail.build(t.at(nut + out))
+        return t.model()
 
 
-def _clamped_blank(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class HygienicBlank(Fitting, name="pipe cap/hygienic", place="end", sizes=up_to(100)):
     """A hygienic blank (ISO 2852): a ferrule on the pipe, a seal, a disc, a clamp of two halves with a wing nut."""
-    r, n = PIPES[dn].radius, style.round(1.4 * PIPES[dn].radius)
-    long, rim = float(rng.uniform(0.5, 1.0)) * r + 0.012, 1.18 * r + 0.009
-    ferrule = lathe([(r, 0.0), (r, long - 0.006), (rim, long - 0.003), (rim, long)], n, bore_of(dn, style))
-    seal = lathe([(rim, long), (rim, long + 0.002)], n, 0.9 * r)
-    blank = lathe([(rim, long + 0.002), (rim, long + 0.005), (1.05 * r, long + 0.008)], n)
-    wide, outer = 0.016 + 0.06 * r, rim + 0.005 + 0.04 * r
-    mid = long + 0.001
-    half = half_band(rim, outer, mid - 0.5 * wide, mid + 0.5 * wide, n)
-    lug = box((wide, 0.35 * r + 0.008, 0.012), (mid, outer + 0.12 * r, 0.008))
-    halves: list[Solid] = [
-        merge([half, lug]),
-        merge([moved(half, spun("x", np.pi)), moved(lug, np.diag([1.0, 1.0, -1.0, 1.0]))]),
-    ]
-    wing = merge(
-        [cylinder(0.003, -0.022, 0.03, 8), cylinder(0.008, 0.014, 0.026, 10), box((0.045, 0.005, 0.016), (0, 0, 0.03))]
-    )
-    parts = [Part(ferrule, "coupling", "trim"), Part(seal, "gasket", "gasket"), Part(blank, "pipe cap", "trim")]
-    parts += [Part(s, "clamp", "clamp", "clamp", BOLTED) for s in halves]
-    parts.append(Part(moved(wing, at(mid, outer + 0.15 * r)), "nut", "fastener", "clamp", BOLTED, True))
-    roll = spun("x", float(rng.uniform(0, 6)))
-    return Model([Part(moved(p.solid, roll), p.name, p.color, p.bundle, p.group, p.fine) for p in parts])
+
+    long: float = between(0.5, 1.0, "length of its ferrule, less 12 mm / radius of the pipe")
+    roll: float = between(0, 6, "where its wing nut is, about the pipe", "rad")
+
+    def build(self, t: Table) -> Model:
+        r, n, _ = sized(t.dn, t.style, 1.4)
+        (one, long, rim), t = ferrule(t, self.long), t.spun("x", self.roll)
+        t.add("coupling", one, of="trim")
+        t.add("gasket", barrel(rim, long, long + 0.002, n, 0.9 * r))
+        blank = outline(rim, long + 0.002, rim, long + 0.005, 1.05 * r, long + 0.008)
+        t.add("pipe cap", lathe(blank, n), of="trim")
+        hygienic_clamp(t, long, rim, hinged=False)
+        return t.model()
 
 
-_UP = np.pi / 2
-
-SPECIALS: tuple[Family, ...] = (
-    family("tee/bar stock", _block("tee", (_UP,)), SMALL),
-    family("cross/bar stock", _block("cross", (_UP, -_UP)), SMALL),
-    family("flange/split", _split, tuple(dn for dn in SIZES if dn <= 100)),
-    family("gasket/insulating", _insulated),
-    family("union/elbow", _elbow_union, SMALL, "end", 1.0),
-    family("pipe cap/hygienic", _clamped_blank, tuple(dn for dn in SIZES if dn <= 100), "end"),
-)
+SPECIALS = families_of(TeeBlock, CrossBlock, SplitFlange, Insulating, UnionElbow, HygienicBlank)

@@ -4,38 +4,38 @@ from __future__ import annotations
 
 import numpy as np
 
-from cadplants.families.chance import pick
+from cadplants.builder.device import families_of
+from cadplants.builder.params import among, between, chance, whole
+from cadplants.builder.table import Table, outline
 from cadplants.families.piping.shape import (
-    BOLTED,
+    BACK,
+    ROLL,
     SMALL,
+    Fitting,
+    barrel,
     bolting,
     counter,
-    family,
     flat_flange,
     grooved,
     knurled,
     lathe,
     pipe_x,
     prism,
+    sized,
+    up_to,
 )
-from cadplants.family import Family, Model, Part
+from cadplants.family import Model
 from cadplants.flange import plate_thickness
 from cadplants.mesh_ops import Solid, about_x, extrude, merge, moved
-from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle
 from cadplants.primitives import box, cylinder, rod, torus
-from cadplants.standards import PIPES, SIZES
+from cadplants.standards import SIZES
 from cadplants.transforms import IDENTITY, at, spun
-from cadplants.valve_body import bore_of
 
-__all__ = ["COUPLINGS", "half_band"]
+__all__ = ["COUPLINGS", "ferrule", "half_band", "hygienic_clamp"]
 
 _ME = "coupling"
-_BACK = spun("z", np.pi)
-
-
-def _own(solid: Solid, color: str = "trim") -> Part:
-    return Part(solid, _ME, color, _ME)
+_BOTH = (-1, 1)
 
 
 def half_band(inner: float, outer: float, low: float, high: float, sides: int, turn: float = np.pi) -> Solid:
@@ -46,42 +46,56 @@ def half_band(inner: float, outer: float, low: float, high: float, sides: int, t
     return about_x(extrude(np.concatenate([outer * unit, inner * unit[::-1]]), low, high))
 
 
-def _ends(dn: int, style: ModelingStyle, length: float, gap: float = 0.004) -> list[Part]:
-    """Two pieces of pipe that nearly meet in the middle of a coupling."""
-    half = 0.5 * length - 0.5 * gap
-    return [Part(pipe_x(dn, a, b, style), "pipe", "pipe") for a, b in ((0.0, half), (length - half, length))]
+class _Coupling(Fitting, bundle=_ME):
+    """A coupling; its ends are on 0 and on its length."""
+
+    def pipes(self, t: Table, length: float, gap: float = 0.01) -> None:
+        """Two pieces of pipe that nearly meet in the middle of it."""
+        half = 0.5 * length - 0.5 * gap
+        for a, b in ((0.0, half), (length - half, length)):
+            t.add("pipe", pipe_x(t.dn, a, b, t.style), own=False)
 
 
-def _grooved(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class Grooved(_Coupling, name="coupling/grooved", sizes=SIZES[2:], weight=1.0):
     """A grooved coupling of two housings and two bolts over the ends of two pipes (AWWA C606)."""
-    length = 0.1 + float(rng.uniform(0.5, 2.5)) * PIPES[dn].outer
-    parts = _ends(dn, style, length)
-    pose = at(0.5 * length) @ spun("x", pick(rng, 0.0, 0.25, 0.5) * np.pi)
-    return Model([*parts, *grooved(dn, style, pose, bool(rng.random() < 0.5))], round(length, 9), "welded")
+
+    long: float = between(0.5, 2.5, "length, less 0.1 m / diameter of the pipe")
+    roll: float = among((0.0, 0.25, 0.5), ROLL)
+    ribbed: bool = chance(0.5, "ribs round its housings")
+
+    def build(self, t: Table) -> Model:
+        length = 0.1 + self.long * t.pipe.outer
+        self.pipes(t, length, 0.004)
+        t.extend(grooved(t.dn, t.style, at(0.5 * length) @ spun("x", self.roll * np.pi), self.ribbed))
+        return t.model(round(length, 9), "welded")
 
 
-def _banded(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class ClampBand(_Coupling, name="coupling/clamp band", sizes=SIZES[3:]):
     """A clamp-band coupling of stainless sheet with folded edges, closed by two screws in two bars (Straub type)."""
-    r, n = PIPES[dn].radius, style.round(1.2 * PIPES[dn].radius)
-    width, thick = float(rng.uniform(0.7, 1.1)) * r + 0.045, 0.002 + 0.02 * r
-    outer = r + 0.006 + 0.06 * r
-    length = width + float(rng.uniform(0.06, 0.3))
-    mid, low, high = 0.5 * length, 0.5 * (length - width), 0.5 * (length + width)
-    bead = 0.12 * width
-    shape = [(0.93 * outer, low), (outer, low + bead), (outer, high - bead), (0.93 * outer, high)]
-    inner = r * 1.0005
-    parts = [*_ends(dn, style, length, 0.01), _own(lathe(shape, n, inner))]
-    wrap = [lathe([(outer + thick, low + bead), (outer + thick, high - bead)], n, outer - 0.0003)]
-    bar, lift = 0.1 * r + 0.005, outer + thick + 0.05 * r + 0.004
-    side = bar * 1.3 + 0.003
-    for s in (-1, 1):
-        wrap.append(rod((low + bead, s * side, lift), (high - bead, s * side, lift), bar, 10))
-    roll = at() @ spun("x", pick(rng, 0.0, 0.5, 1.0) * np.pi)
-    parts.append(_own(moved(merge(wrap), roll)))
-    for share in (-0.25, 0.25) if rng.random() < 0.8 else (0.0,):
-        way = roll @ at(mid + share * width, 0, lift) @ spun("z", np.pi / 2)
-        parts += bolting(1, 0.0, 0.5 * bar + 0.003, -side - bar, side + bar, style, _ME, way)
-    return Model(parts, round(length, 9), "welded")
+
+    wide: float = between(0.7, 1.1, "width, less 45 mm / radius of the pipe")
+    bare: float = between(0.06, 0.3, "length of the pipe that it leaves bare", "m")
+    roll: float = among((0.0, 0.5, 1.0), ROLL)
+    paired: bool = chance(0.8, "two screws, not one")
+
+    def build(self, t: Table) -> Model:
+        r, n, _ = sized(t.dn, t.style, 1.2)
+        width, thick, outer = self.wide * r + 0.045, 0.002 + 0.02 * r, r + 0.006 + 0.06 * r
+        length, bead = width + self.bare, 0.12 * width
+        mid, low, high = 0.5 * length, 0.5 * (length - width), 0.5 * (length + width)
+        self.pipes(t, length)
+        shape = outline(0.93 * outer, low, outer, low + bead, outer, high - bead, 0.93 * outer, high)
+        t.add(_ME, lathe(shape, n, r * 1.0005), of="trim")
+        wrap = [barrel(outer + thick, low + bead, high - bead, n, outer - 0.0003)]
+        bar, lift = 0.1 * r + 0.005, outer + thick + 0.05 * r + 0.004
+        side = bar * 1.3 + 0.003
+        wrap += [rod((low + bead, s * side, lift), (high - bead, s * side, lift), bar, 10) for s in _BOTH]
+        t = t.spun("x", self.roll * np.pi)
+        t.add(_ME, *wrap, of="trim")
+        for share in (-0.25, 0.25) if self.paired else (0.0,):
+            way = at(mid + share * width, 0, lift) @ spun("z", np.pi / 2)
+            t.extend(bolting(1, 0.0, 0.5 * bar + 0.003, -side - bar, side + bar, t.style, _ME, way))
+        return t.model(round(length, 9), "welded")
 
 
 def _lobed(radius: float, ears: int, reach: float, wide: float, bore: float, low: float, high: float, n: int) -> Solid:
@@ -92,288 +106,270 @@ def _lobed(radius: float, ears: int, reach: float, wide: float, bore: float, low
     return about_x(extrude(np.column_stack([r * np.cos(angles), r * np.sin(angles)]), low, high, (circle(bore, n),)))
 
 
-def _sleeve_bolts(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class SleeveBolts(_Coupling, name="coupling/sleeve with bolts", sizes=SIZES[4:]):
     """A bolted sleeve coupling (AWWA C219): a middle ring, two follower rings, long bolts from one to the other."""
-    r, n = PIPES[dn].radius, style.round(1.3 * PIPES[dn].radius)
-    width, thick = float(rng.uniform(1.2, 2.2)) * r + 0.07, 0.01 + 0.06 * r
-    length = width + float(rng.uniform(0.08, 0.3))
-    count = int(rng.choice([2, 3, 4])) if dn <= 80 else int(rng.choice([4, 6, 8]))
-    bolt = 0.008 + 0.04 * r
-    sleeve = 1.08 * r + 0.008
-    low, high = 0.5 * (length - width), 0.5 * (length + width)
-    shape = [
-        (1.12 * sleeve, low + thick),
-        (sleeve, low + 2 * thick),
-        (sleeve, high - 2 * thick),
-        (1.12 * sleeve, high - thick),
-    ]
-    parts = [*_ends(dn, style, length, 0.01), _own(lathe(shape, n, r), "valve")]
-    circle_ = 1.15 * sleeve + 1.1 * bolt
-    for place in (low, high - thick):
-        ring = _lobed(1.15 * sleeve, count, circle_ + 1.1 * bolt, 1.2 * bolt / circle_, r, place, place + thick, n)
-        parts.append(_own(ring, "valve"))
-    parts += bolting(count, circle_, bolt, low, high, style, _ME, IDENTITY, 0.0)
-    return Model(parts, round(length, 9), "welded")
+
+    wide: float = between(1.2, 2.2, "width, less 70 mm / radius of the pipe")
+    bare: float = between(0.08, 0.3, "length of the pipe that it leaves bare", "m")
+    count: int = among(lambda p: (2, 3, 4) if p.dn <= 80 else (4, 6, 8), "bolts")
+
+    def build(self, t: Table) -> Model:
+        r, n, _ = sized(t.dn, t.style, 1.3)
+        width, thick, bolt = self.wide * r + 0.07, 0.01 + 0.06 * r, 0.008 + 0.04 * r
+        length, sleeve = width + self.bare, 1.08 * r + 0.008
+        low, high, wide = 0.5 * (length - width), 0.5 * (length + width), 1.12 * sleeve
+        shape = outline(wide, low + thick, sleeve, low + 2 * thick, sleeve, high - 2 * thick, wide, high - thick)
+        self.pipes(t, length)
+        t.add(_ME, lathe(shape, n, r), of="valve")
+        out = 1.15 * sleeve + 1.1 * bolt
+        for a in (low, high - thick):
+            ear = out + 1.1 * bolt, 1.2 * bolt / out
+            t.add(_ME, _lobed(1.15 * sleeve, self.count, *ear, r, a, a + thick, n), of="valve")
+        t.extend(bolting(self.count, out, bolt, low, high, t.style, _ME, IDENTITY, 0.0))
+        return t.model(round(length, 9), "welded")
 
 
-def _cam(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class CamLever(_Coupling, name="coupling/cam lever", sizes=up_to(100), grain="structure"):
     """A cam and groove coupling (EN 14420-7): an adapter in a coupler with two cam levers and finger rings."""
-    r, n = PIPES[dn].radius, style.round(1.4 * PIPES[dn].radius)
-    end, cup, male = 0.9 * r + 0.012, 1.1 * r + 0.02, 0.7 * r + 0.012
-    length, bore = 2 * end + cup + male, bore_of(dn, style)
-    design = int(rng.integers(2))
-    grip = (
-        prism(2.7 * r + 0.004, int(rng.choice([6, 8])), 0.0, end, bore, n)
-        if design
-        else lathe([(1.2 * r, 0.0), (1.25 * r, end)], n, bore)
-    )
-    outer = 1.45 * r + 0.006
-    coupler = merge([grip, lathe([(1.2 * r, 0.9 * end), (outer, end), (outer, end + cup)], n, bore)])
-    x = end + 0.65 * cup
-    ears = []
-    levers = []
-    a = float(rng.choice([0.0, 0.0, 0.9]))
-    for s in (-1, 1):
-        ears += [
-            box((0.3 * cup, 0.35 * r + 0.006, 0.004 + 0.05 * r), (x, s * (outer + 0.12 * r), z * 0.3 * r))
-            for z in (-1, 1)
+
+    gripped: bool = among((False, True), "flats for a wrench on its coupler")
+    flats: int = among((6, 8), "such flats", when=lambda p: p.gripped, otherwise=0)
+    lift: float = among((0.0, 0.0, 0.9), "how far its levers are lifted", "rad")
+    roll: float = among((0.0, 0.5), ROLL)
+
+    def build(self, t: Table) -> Model:
+        r, n, bore = sized(t.dn, t.style, 1.4)
+        end, cup, male = 0.9 * r + 0.012, 1.1 * r + 0.02, 0.7 * r + 0.012
+        length, outer, x, t = 2 * end + cup + male, 1.45 * r + 0.006, end + 0.65 * cup, t.spun("x", self.roll * np.pi)
+        grip = lathe(outline(1.2 * r, 0.0, 1.25 * r, end), n, bore)
+        if self.gripped:
+            grip = prism(2.7 * r + 0.004, self.flats, 0.0, end, bore, n)
+        coupler = lathe(outline(1.2 * r, 0.9 * end, outer, end, outer, end + cup), n, bore)
+        ear = (0.3 * cup, 0.35 * r + 0.006, 0.004 + 0.05 * r)
+        ears = [box(ear, (x, s * (outer + 0.12 * r), z * 0.3 * r)) for s in _BOTH for z in _BOTH]
+        t.add(_ME, merge([grip, coupler]), *ears, of="trim")
+        a = outline(1.15 * r, end + cup - 0.2 * r, 1.15 * r, length - end, 1.3 * r, length - end, 1.3 * r, length)
+        t.add(_ME, lathe(a, n, bore), of="trim")
+        long = 0.9 * cup + end
+        finger = torus(0.25 * r + 0.006, 0.002 + 0.02 * r, 12, 6)
+        lever = [
+            cylinder(0.22 * r + 0.003, -0.25 * r, 0.25 * r, 10),
+            box((long, 0.12 * r + 0.003, 0.45 * r), (-0.5 * long, 0.1 * r, 0)),
+            moved(finger, at(-long - 0.2 * r, 0.1 * r) @ spun("x", np.pi / 2)),
         ]
-        lever = merge(
-            [
-                _pin(0.22 * r + 0.003, 0.5 * r),
-                box((0.9 * cup + end, 0.12 * r + 0.003, 0.45 * r), (-0.5 * (0.9 * cup + end), 0.1 * r, 0)),
-                moved(
-                    torus(0.25 * r + 0.006, 0.002 + 0.02 * r, 12, 6),
-                    at(-1.0 * (0.9 * cup + end) - 0.2 * r, 0.1 * r) @ spun("x", np.pi / 2),
-                ),
-            ]
-        )
-        flip = np.diag([1.0, float(s), 1.0, 1.0])
-        levers.append(moved(lever, at(x, s * (outer + 0.2 * r)) @ flip @ spun("z", -a)))
-    adapter = [(1.15 * r, end + cup - 0.2 * r), (1.15 * r, length - end), (1.3 * r, length - end), (1.3 * r, length)]
-    roll = spun("x", pick(rng, 0.0, 0.5) * np.pi)
-    parts = [_own(merge([coupler, *ears])), _own(lathe(adapter, n, bore))]
-    parts += [Part(one, "lever", "handle", _ME, "Valve assembly") for one in levers]
-    parts = [Part(moved(p.solid, roll), p.name, p.color, p.bundle, p.group, p.fine) for p in parts]
-    return Model(parts, round(length, 9), "welded")
+        for s in _BOTH:
+            flip = np.diag([1.0, float(s), 1.0, 1.0])
+            t.at(x, s * (outer + 0.2 * r)).moved(flip).spun("z", -self.lift).add("lever", *lever, own=True)
+        return t.model(round(length, 9), "welded")
 
 
-def _pin(radius: float, tall: float) -> Solid:
-    """A pin about z [m]."""
-    return cylinder(radius, -0.5 * tall, 0.5 * tall, 10)
-
-
-def _storz(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class Claw(_Coupling, name="coupling/claw", sizes=up_to(100), grain="structure"):
     """A claw coupling (DIN 14301 Storz, or with two claws): two alike halves, each with lugs round its ring."""
-    r, n = PIPES[dn].radius, style.round(1.5 * PIPES[dn].radius)
-    tail_, ring_ = float(rng.uniform(0.9, 1.8)) * r + 0.02, 0.45 * r + 0.014
-    length, lugs = 2 * (tail_ + ring_), int(rng.choice([2, 2, 3, 4]))
-    outer = 1.5 * r + 0.01
-    half = [lathe([(1.15 * r, 0.0), (1.1 * r, tail_), (outer, tail_), (outer, tail_ + ring_)], n, bore_of(dn, style))]
-    for k in range(lugs):
-        lug = box((1.3 * ring_, 0.3 * r + 0.01, 0.8 * r), (tail_ + 0.75 * ring_, outer, 0))
-        half.append(moved(lug, spun("x", 2 * np.pi * k / lugs)))
-    one = merge(half)
-    if rng.random() < 0.5:
-        ribs = [
-            lathe([(1.2 * r, tail_ * k), (1.2 * r, tail_ * k + 0.08 * tail_)], n, 1.08 * r) for k in (0.2, 0.45, 0.7)
-        ]
-        one = merge([one, *ribs])
-    turn = spun("x", np.pi / lugs)
-    return Model([_own(one), _own(moved(one, at(length) @ _BACK @ turn))], round(length, 9), "welded")
+
+    tail: float = between(0.9, 1.8, "length of its tails, less 20 mm / radius of the pipe")
+    lugs: int = among((2, 2, 3, 4), "lugs of a half")
+    ribbed: bool = chance(0.5, "ribs round its tails")
+
+    def build(self, t: Table) -> Model:
+        r, n, bore = sized(t.dn, t.style, 1.5)
+        tail, ring, outer = self.tail * r + 0.02, 0.45 * r + 0.014, 1.5 * r + 0.01
+        length = 2 * (tail + ring)
+        half = [lathe(outline(1.15 * r, 0.0, 1.1 * r, tail, outer, tail, outer, tail + ring), n, bore)]
+        lug = box((1.3 * ring, 0.3 * r + 0.01, 0.8 * r), (tail + 0.75 * ring, outer, 0))
+        half += [moved(lug, spun("x", 2 * np.pi * k / self.lugs)) for k in range(self.lugs)]
+        if self.ribbed:
+            half += [barrel(1.2 * r, tail * k, tail * k + 0.08 * tail, n, 1.08 * r) for k in (0.2, 0.45, 0.7)]
+        t.add(_ME, *half, of="trim")
+        t.at(length).moved(BACK).spun("x", np.pi / self.lugs).add(_ME, *half, of="trim")
+        return t.model(round(length, 9), "welded")
 
 
-def _quick(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class Quick(_Coupling, name="coupling/quick", sizes=SMALL, grain="structure"):
     """A quick coupling (ISO 7241): a plug in a socket with a sliding knurled sleeve, hexagons at both ends."""
-    r, n = PIPES[dn].radius, style.round(1.5 * PIPES[dn].radius)
-    hexa, body = 0.8 * r + 0.01, float(rng.uniform(2.2, 3.2)) * r + 0.02
-    length, bore = 2 * hexa + body + 0.6 * r, bore_of(dn, style)
-    split = hexa + 0.72 * body
-    socket = merge(
-        [
-            prism(2.5 * r + 0.005, 6, 0.0, hexa, bore, n),
-            lathe([(1.3 * r, 0.9 * hexa), (1.45 * r, hexa), (1.45 * r, split)], n, bore),
-        ]
-    )
-    long = float(rng.uniform(0.3, 0.5)) * body
-    if rng.random() < 0.5:
-        sleeve = knurled(
-            1.75 * r + 0.002, int(rng.integers(12, 24)), 0.08 * r, split - long, split + 0.1 * r, 1.4 * r, n
-        )
-    else:
-        low, high = split - long, split + 0.1 * r
-        shape = [
-            (1.75 * r, low),
-            (1.75 * r, low + 0.2 * long),
-            (1.6 * r, low + 0.3 * long),
-            (1.6 * r, high - 0.3 * long),
-        ]
-        sleeve = lathe([*shape, (1.75 * r, high - 0.2 * long), (1.75 * r, high)], n, 1.4 * r)
-    plug = [
-        (1.1 * r, split - 0.2 * r),
-        (1.1 * r, split + 0.5 * r),
-        (1.35 * r, split + 0.5 * r),
-        (1.35 * r, length - hexa),
-    ]
-    male = merge([lathe(plug, n, bore), prism(2.5 * r + 0.005, 6, length - hexa, length, bore, n)])
-    return Model([_own(socket), _own(sleeve), _own(male)], round(length, 9), "welded")
+
+    body: float = between(2.2, 3.2, "length of its body, less 20 mm / radius of the pipe")
+    sleeve: float = between(0.3, 0.5, "length of its sleeve / of its body")
+    knurled: bool = chance(0.5, "a knurled sleeve, not a grooved one")
+    teeth: int = whole(12, 23, "teeth of the knurling", when=lambda p: p.knurled)
+
+    def build(self, t: Table) -> Model:
+        r, n, bore = sized(t.dn, t.style, 1.5)
+        end, body = 0.8 * r + 0.01, self.body * r + 0.02
+        length, split = 2 * end + body + 0.6 * r, end + 0.72 * body
+        neck = lathe(outline(1.3 * r, 0.9 * end, 1.45 * r, end, 1.45 * r, split), n, bore)
+        t.add(_ME, prism(2.5 * r + 0.005, 6, 0.0, end, bore, n), neck, of="trim")
+        long = self.sleeve * body
+        low, high, wide, thin = split - long, split + 0.1 * r, 1.75 * r, 1.6 * r
+        if self.knurled:
+            sleeve = knurled(wide + 0.002, self.teeth, 0.08 * r, low, high, 1.4 * r, n)
+        else:
+            shape = outline(wide, low, wide, low + 0.2 * long, thin, low + 0.3 * long, thin, high - 0.3 * long)
+            sleeve = lathe([*shape, (wide, high - 0.2 * long), (wide, high)], n, 1.4 * r)
+        t.add(_ME, sleeve, of="trim")
+        a, b = split + 0.5 * r, length - end
+        plug = lathe(outline(1.1 * r, split - 0.2 * r, 1.1 * r, a, 1.35 * r, a, 1.35 * r, b), n, bore)
+        t.add(_ME, plug, prism(2.5 * r + 0.005, 6, b, length, bore, n), of="trim")
+        return t.model(round(length, 9), "welded")
 
 
-def _adaptor(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class FlangeAdaptor(_Coupling, name="coupling/flange adaptor", sizes=SIZES[5:]):
     """A flange adaptor (AWWA C219): a flanged sleeve over a plain pipe, pressed by a follower ring with bolts."""
-    r, n = PIPES[dn].radius, style.round(1.3 * PIPES[dn].radius)
-    lead, plate = float(rng.uniform(0.05, 0.2)), plate_thickness(dn)
-    body, thick = float(rng.uniform(0.7, 1.2)) * r + 0.05, 0.01 + 0.05 * r
-    face = lead + thick + body
-    sleeve = 1.08 * r + 0.008
-    solid = merge(
-        [
-            lathe([(1.15 * sleeve, lead + thick + 0.004), (sleeve, lead + 2 * thick), (sleeve, face - plate)], n, r),
-            flat_flange(dn, style, face - plate, plate, r),
-        ]
-    )
-    count, bolt = (4 if dn <= 100 else 6), 0.008 + 0.03 * r
-    out = 1.15 * sleeve + 1.1 * bolt
-    ring = _lobed(1.15 * sleeve, count, out + 1.1 * bolt, 1.2 * bolt / out, r, lead, lead + thick, n)
-    parts = [Part(pipe_x(dn, 0.0, face - 0.02, style), "pipe", "pipe"), _own(solid, "valve"), _own(ring, "valve")]
-    parts += bolting(count, out, bolt, lead, min(face - plate, lead + 3 * thick), style, _ME, IDENTITY, 0.0)
-    counted, more = counter(dn, style, at(face))
-    return Model([*parts, *counted], round(face + more, 9), "welded")
+
+    lead: float = between(0.05, 0.2, "length of the pipe before it", "m")
+    body: float = between(0.7, 1.2, "length of its body, less 50 mm / radius of the pipe")
+
+    def build(self, t: Table) -> Model:
+        r, n, _ = sized(t.dn, t.style, 1.3)
+        lead, plate, thick = self.lead, plate_thickness(t.dn), 0.01 + 0.05 * r
+        face, sleeve = lead + thick + self.body * r + 0.05, 1.08 * r + 0.008
+        count, bolt = (4 if t.dn <= 100 else 6), 0.008 + 0.03 * r
+        wide = 1.15 * sleeve
+        out = wide + 1.1 * bolt
+        t.add("pipe", pipe_x(t.dn, 0.0, face - 0.02, t.style), own=False)
+        body = lathe(outline(wide, lead + thick + 0.004, sleeve, lead + 2 * thick, sleeve, face - plate), n, r)
+        t.add(_ME, body, flat_flange(t.dn, t.style, face - plate, plate, r), of="valve")
+        ring = _lobed(wide, count, out + 1.1 * bolt, 1.2 * bolt / out, r, lead, lead + thick, n)
+        t.add(_ME, ring, of="valve")
+        high = min(face - plate, lead + 3 * thick)
+        t.extend(bolting(count, out, bolt, lead, high, t.style, _ME, IDENTITY, 0.0))
+        parts, more = counter(t.dn, t.style, at(face))
+        t.extend(parts)
+        return t.model(round(face + more, 9), "welded")
 
 
-def _hygienic(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
-    """A hygienic clamp joint (ISO 2852): two ferrules, a seal, a hinged clamp of two halves with a wing nut."""
-    r, n = PIPES[dn].radius, style.round(1.4 * PIPES[dn].radius)
-    long, rim = float(rng.uniform(0.6, 1.2)) * r + 0.012, 1.18 * r + 0.009
-    length = 2 * long + 0.002
-    ferrule = lathe([(r, 0.0), (r, long - 0.006), (rim, long - 0.003), (rim, long)], n, bore_of(dn, style))
-    parts = [_own(ferrule), _own(moved(ferrule, at(length) @ _BACK))]
-    parts.append(Part(lathe([(rim, long), (rim, long + 0.002)], n, r), "gasket", "gasket", _ME))
-    wide, outer, mid = 0.016 + 0.06 * r, rim + 0.005 + 0.04 * r, 0.5 * length
+def ferrule(t: Table, long: float) -> tuple[Solid, float, float]:
+    """A ferrule of a hygienic joint (ISO 2852) on a pipe, its length and its radius [m].
+
+    Args:
+        t: with the pipe's nominal size.
+        long: its length, less 12 mm / radius of the pipe.
+    """
+    r, n, bore = sized(t.dn, t.style, 1.4)
+    end, rim = long * r + 0.012, 1.18 * r + 0.009
+    return lathe(outline(r, 0.0, r, end - 0.006, rim, end - 0.003, rim, end), n, bore), end, rim
+
+
+def hygienic_clamp(t: Table, face: float, rim: float, hinged: bool = True) -> None:
+    """A clamp of two halves round ferrules of a radius that meet behind a face, and the wing nut that draws it [m]."""
+    r, n, _ = sized(t.dn, t.style, 1.4)
+    mid, wide, outer = face + 0.001, 0.016 + 0.06 * r, rim + 0.005 + 0.04 * r
     half = half_band(rim, outer, mid - 0.5 * wide, mid + 0.5 * wide, n)
     lug = box((wide, 0.35 * r + 0.008, 0.012), (mid, outer + 0.12 * r, 0.008))
-    hinge = moved(cylinder(0.005, -0.5 * wide, 0.5 * wide, 8), at(mid, -outer - 0.003) @ spun("y", np.pi / 2))
-    upper, lower = (
-        merge([half, lug]),
-        merge([moved(half, spun("x", np.pi)), moved(lug, np.diag([1.0, 1.0, -1.0, 1.0])), hinge]),
-    )
-    parts += [Part(s, "clamp", "clamp", "clamp", BOLTED) for s in (upper, lower)]
-    y = outer + 0.15 * r
+    lower = [moved(half, spun("x", np.pi)), moved(lug, np.diag([1.0, 1.0, -1.0, 1.0]))]
+    if hinged:
+        lower.append(moved(cylinder(0.005, -0.5 * wide, 0.5 * wide, 8), at(mid, -outer - 0.003) @ spun("y", np.pi / 2)))
+    t = t.bundled("clamp")
+    for solids in ([half, lug], lower):
+        t.add("clamp", *solids, own=True)
     wing = [
         cylinder(0.003, -0.022, 0.03, 8),
         cylinder(0.008, 0.014, 0.026, 10),
         box((0.045, 0.005, 0.016), (0, 0, 0.03)),
     ]
-    parts.append(Part(moved(merge(wing), at(mid, y)), "nut", "fastener", "clamp", BOLTED, True))
-    roll = spun("x", float(rng.uniform(0, 6)))
-    parts = [Part(moved(p.solid, roll), p.name, p.color, p.bundle, p.group, p.fine) for p in parts]
-    return Model(parts, round(length, 9), "welded")
+    t.at(mid, outer + 0.15 * r).add("nut", *wing)
 
 
-def _irrigation(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class HygienicClamp(_Coupling, name="coupling/hygienic clamp", sizes=up_to(100), grain="structure"):
+    """A hygienic clamp joint (ISO 2852): two ferrules, a seal, a hinged clamp of two halves with a wing nut."""
+
+    long: float = between(0.6, 1.2, "length of a ferrule, less 12 mm / radius of the pipe")
+    roll: float = between(0, 6, "where its wing nut is, about the pipe", "rad")
+
+    def build(self, t: Table) -> Model:
+        r, n, _ = sized(t.dn, t.style, 1.4)
+        one, long, rim = ferrule(t, self.long)
+        length, t = 2 * long + 0.002, t.spun("x", self.roll)
+        t.add(_ME, one, of="trim")
+        t.at(length).moved(BACK).add(_ME, one, of="trim")
+        t.add("gasket", barrel(rim, long, long + 0.002, n, r))
+        hygienic_clamp(t, long, rim)
+        return t.model(round(length, 9), "welded")
+
+
+class PlasticCompression(_Coupling, name="coupling/plastic compression", sizes=up_to(100), grain="structure"):
     """A plastic compression fitting (ISO 17885): a barrel between two conical nuts with coarse ribs."""
-    r, n = PIPES[dn].radius, style.round(1.6 * PIPES[dn].radius)
-    nut, middle = float(rng.uniform(1.5, 2.2)) * r + 0.015, 0.8 * r + 0.01
-    length, teeth = 2 * nut + middle, int(rng.integers(8, 15))
-    one = merge(
-        [
-            lathe(
-                [(1.25 * r, 0.0), (1.5 * r + 0.003, 0.55 * nut), (1.6 * r + 0.003, nut)], n, r if style.hollow else 0.0
-            ),
-            knurled(1.85 * r + 0.004, teeth, 0.22 * r, 0.5 * nut, nut, 1.3 * r, n),
-        ]
-    )
-    body = lathe(
-        [
-            (1.45 * r, 0.8 * nut),
-            (1.45 * r, nut),
-            (1.5 * r, nut),
-            (1.5 * r, nut + middle),
-            (1.45 * r, nut + middle),
-            (1.45 * r, length - 0.8 * nut),
-        ],
-        n,
-    )
-    return Model(
-        [_own(body, "rubber"), _own(one, "handle"), _own(moved(one, at(length) @ _BACK), "handle")],
-        round(length, 9),
-        "welded",
-    )
+
+    nut: float = between(1.5, 2.2, "length of a nut, less 15 mm / radius of the pipe")
+    teeth: int = whole(8, 14, "ribs of a nut")
+
+    def build(self, t: Table) -> Model:
+        r, n, _ = sized(t.dn, t.style, 1.6)
+        nut, middle = self.nut * r + 0.015, 0.8 * r + 0.01
+        length, a, b = 2 * nut + middle, 1.45 * r, 1.5 * r
+        cone = outline(1.25 * r, 0.0, b + 0.003, 0.55 * nut, 1.6 * r + 0.003, nut)
+        ribs = knurled(1.85 * r + 0.004, self.teeth, 0.22 * r, 0.5 * nut, nut, 1.3 * r, n)
+        one = [lathe(cone, n, r if t.style.hollow else 0.0), ribs]
+        far = nut + middle
+        body = outline(a, 0.8 * nut, a, nut, b, nut, b, far, a, far, a, length - 0.8 * nut)
+        t.add(_ME, lathe(body, n), of="rubber")
+        t.add(_ME, *one)
+        t.at(length).moved(BACK).add(_ME, *one)
+        return t.model(round(length, 9), "welded")
 
 
-def _tube_fitting(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class TubeFitting(_Coupling, name="coupling/tube fitting", sizes=SMALL, grain="structure"):
     """A tube fitting (ISO 8434-1): a hexagon body and a hexagon nut with a chamfer on each side."""
-    r, n = PIPES[dn].radius, style.round(1.4 * PIPES[dn].radius)
-    nut, hexa, gap = 1.1 * r + 0.008, 0.5 * r + 0.004, 0.4 * r + 0.003
-    length = 2 * (nut + gap) + hexa
-    thread = lathe([(1.1 * r, 0.5 * nut), (1.1 * r, length - 0.5 * nut)], n)
-    body = merge([thread, prism(2.5 * r + 0.005, 6, nut + gap, nut + gap + hexa)])
-    bored = 0.99 * r if style.hollow else 0.0
-    cone = lathe([(1.12 * r, 0.0), (1.3 * r, 0.25 * nut)], n, bored)
-    one = merge([cone, prism(2.6 * r + 0.006, 6, 0.25 * nut, nut, bored, n)])
-    ends = [moved(one, spun("x", float(rng.uniform(0, 1)))), moved(one, at(length) @ _BACK)]
-    return Model([_own(body), *(Part(s, "nut", "trim", _ME, BOLTED) for s in ends)], round(length, 9), "welded")
+
+    turn: float = between(0, 1, "of the first nut about the pipe", "rad")
+
+    def build(self, t: Table) -> Model:
+        r, n, _ = sized(t.dn, t.style, 1.4)
+        nut, flats, gap = 1.1 * r + 0.008, 0.5 * r + 0.004, 0.4 * r + 0.003
+        length, bored = 2 * (nut + gap) + flats, 0.99 * r if t.style.hollow else 0.0
+        thread = barrel(1.1 * r, 0.5 * nut, length - 0.5 * nut, n)
+        t.add(_ME, thread, prism(2.5 * r + 0.005, 6, nut + gap, nut + gap + flats), of="trim")
+        cone = lathe(outline(1.12 * r, 0.0, 1.3 * r, 0.25 * nut), n, bored)
+        one = [cone, prism(2.6 * r + 0.006, 6, 0.25 * nut, nut, bored, n)]
+        for way in (t.spun("x", self.turn), t.at(length).moved(BACK)):
+            way.add("nut", *one, of="trim", own=True, fine=False)
+        return t.model(round(length, 9), "welded")
 
 
-def _repair(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class RepairClamp(_Coupling, name="coupling/repair clamp", sizes=SIZES[4:]):
     """A repair clamp: a stainless shell round the pipe, drawn together along a bar by a row of bolts."""
-    r, n = PIPES[dn].radius, style.round(1.1 * PIPES[dn].radius)
-    count = int(rng.integers(2, 6))
-    width = 0.055 * count + 0.02
-    length = width + float(rng.uniform(0.1, 0.4))
-    low, thick = 0.5 * (length - width), 0.004 + 0.02 * r
-    shell = lathe([(r + thick, low), (r + thick, low + width)], n, r)
-    bars = [box((width, 0.014, 0.03), (0.5 * length, s * 0.016, r + thick + 0.012)) for s in (-1, 1)]
-    webs = [
-        box((0.02, 0.02, 0.016), (low + width * (k + 0.5) / count, s * 0.03, r + thick + 0.004))
-        for k in range(count)
-        for s in (-1, 1)
-    ]
-    parts = [Part(pipe_x(dn, 0.0, length, style), "pipe", "pipe"), _own(shell), _own(merge([*bars, *webs]))]
-    for k in range(count):
-        way = at(low + width * (k + 0.5) / count, 0, r + thick + 0.017) @ spun("z", np.pi / 2)
-        parts += bolting(1, 0.0, 0.01, -0.023, 0.023, style, _ME, way)
-    return Model(parts, round(length, 9), "welded")
+
+    count: int = whole(2, 5, "bolts")
+    bare: float = between(0.1, 0.4, "length of the pipe that it leaves bare", "m")
+
+    def build(self, t: Table) -> Model:
+        r, n, _ = sized(t.dn, t.style, 1.1)
+        count, width = self.count, 0.055 * self.count + 0.02
+        length, thick = width + self.bare, 0.004 + 0.02 * r
+        low, top = 0.5 * (length - width), r + thick
+        t.add("pipe", pipe_x(t.dn, 0.0, length, t.style), own=False)
+        t.add(_ME, barrel(top, low, low + width, n, r), of="trim")
+        xs = [low + width * (k + 0.5) / count for k in range(count)]
+        bars = [box((width, 0.014, 0.03), (0.5 * length, s * 0.016, top + 0.012)) for s in _BOTH]
+        webs = [box((0.02, 0.02, 0.016), (x, s * 0.03, top + 0.004)) for x in xs for s in _BOTH]
+        t.add(_ME, *bars, *webs, of="trim")
+        for x in xs:
+            way = at(x, 0, top + 0.017) @ spun("z", np.pi / 2)
+            t.extend(bolting(1, 0.0, 0.01, -0.023, 0.023, t.style, _ME, way))
+        return t.model(round(length, 9), "welded")
 
 
-def _plastic(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class PlasticSleeve(_Coupling, name="coupling/plastic sleeve", sizes=SIZES[:12]):
     """A plastic sleeve: glued with a lip at each end, or an electrofusion one with two terminals (ISO 4427-3)."""
-    r, n = PIPES[dn].radius, style.round(1.2 * PIPES[dn].radius)
-    length, outer = float(rng.uniform(2.2, 3.6)) * r + 0.02, 1.2 * r + 0.002
-    bore = bore_of(dn, style)
-    if rng.random() < 0.5:
-        lip = 0.1 * length
-        shape = [(1.08 * outer, 0.0), (1.08 * outer, lip), (outer, lip), (outer, length - lip)]
-        return Model(
-            [_own(lathe([*shape, (1.08 * outer, length - lip), (1.08 * outer, length)], n, bore), "handle")],
-            round(length, 9),
-            "welded",
-        )
-    pieces = [
-        lathe(
-            [(0.95 * outer, 0.0), (1.1 * outer, 0.15 * length), (1.1 * outer, 0.85 * length), (0.95 * outer, length)],
-            n,
-            bore,
-        )
-    ]
-    for x in (0.22 * length, 0.78 * length):
-        pieces.append(moved(cylinder(0.006 + 0.03 * r, outer, 1.12 * outer + 0.014, 10), at(x)))
-    return Model([_own(merge(pieces), "rubber")], round(length, 9), "welded")
+
+    long: float = between(2.2, 3.6, "length, less 20 mm / radius of the pipe")
+    glued: bool = chance(0.5, "glued, not welded by electrofusion")
+
+    def build(self, t: Table) -> Model:
+        r, n, bore = sized(t.dn, t.style, 1.2)
+        length, outer = self.long * r + 0.02, 1.2 * r + 0.002
+        if self.glued:
+            lip, wide = 0.1 * length, 1.08 * outer
+            shape = outline(wide, 0.0, wide, lip, outer, lip, outer, length - lip, wide, length - lip, wide, length)
+            t.add(_ME, lathe(shape, n, bore))
+        else:
+            thin, wide = 0.95 * outer, 1.1 * outer
+            body = lathe(outline(thin, 0.0, wide, 0.15 * length, wide, 0.85 * length, thin, length), n, bore)
+            pin = cylinder(0.006 + 0.03 * r, outer, 1.12 * outer + 0.014, 10)
+            t.add(_ME, body, *(moved(pin, at(f * length)) for f in (0.22, 0.78)), of="rubber")
+        return t.model(round(length, 9), "welded")
 
 
-_MIDDLE = tuple(dn for dn in SIZES if dn <= 100)
-
-COUPLINGS: tuple[Family, ...] = (
-    family("coupling/grooved", _grooved, SIZES[2:], weight=1.0),
-    family("coupling/clamp band", _banded, SIZES[3:]),
-    family("coupling/sleeve with bolts", _sleeve_bolts, SIZES[4:]),
-    family("coupling/cam lever", _cam, _MIDDLE, grain="structure"),
-    family("coupling/claw", _storz, _MIDDLE, grain="structure"),
-    family("coupling/quick", _quick, SMALL, grain="structure"),
-    family("coupling/flange adaptor", _adaptor, SIZES[5:]),
-    family("coupling/hygienic clamp", _hygienic, _MIDDLE, grain="structure"),
-    family("coupling/plastic compression", _irrigation, _MIDDLE, grain="structure"),
-    family("coupling/tube fitting", _tube_fitting, SMALL, grain="structure"),
-    family("coupling/repair clamp", _repair, SIZES[4:]),
-    family("coupling/plastic sleeve", _plastic, SIZES[:12]),
-)
+COUPLINGS = families_of(
+    Grooved, ClampBand, SleeveBolts, CamLever, Claw, Quick, FlangeAdaptor, HygienicClamp, PlasticCompression,
+    TubeFitting, RepairClamp, PlasticSleeve,
+)  # fmt: skip

@@ -2,341 +2,322 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
-from cadplants.families.chance import pick
+from cadplants.builder.device import families_of
+from cadplants.builder.params import Params, among, between, chance, nested, whole
+from cadplants.builder.table import Table, outline
 from cadplants.families.piping.shape import (
-    BOLTED,
+    BACK,
+    Fitting,
+    barrel,
     bolting,
     drilled,
-    family,
     flat_flange,
     lathe,
-    mirrored,
     pipe_x,
     prism,
+    sized,
 )
-from cadplants.family import Family, Model, Part
+from cadplants.family import Model
 from cadplants.flange import plate_thickness
 from cadplants.mesh_ops import Solid, merge, moved
-from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle
 from cadplants.primitives import box, torus, waves
-from cadplants.standards import FLANGES, PIPES, SIZES
+from cadplants.standards import SIZES
 from cadplants.transforms import at, spun
-from cadplants.valve_body import bore_of
 
 __all__ = ["FLEXIBLES"]
 
 _ME = "expansion joint"
-_BACK = spun("z", np.pi)
+_BOTH = (-1, 1)
+_FLIP = np.diag([-1.0, 1.0, 1.0, 1.0])
+_END, _LONG = "length of an end, less {} / radius of the pipe", "length of {}, less {} / radius of the pipe"
 
 
-def _own(solid: Solid, color: str = "trim") -> Part:
-    return Part(solid, _ME, color, _ME)
+class _Joint(Fitting, bundle=_ME):
+    """An expansion joint."""
+
+    def pipe(self, t: Table, low: float, high: float) -> None:
+        """A piece of pipe between two places [m]."""
+        t.add("pipe", pipe_x(t.dn, low, high, t.style), own=False)
 
 
-def _waved(low: float, high: float, r: float, depth: float, count: int) -> list[tuple[float, float]]:
-    return [(a, x) for a, x in waves(low, high, r, r + depth, count)]
+def _ways(t: Table, length: float) -> tuple[Table, Table]:
+    """The frame at the near end and, mirrored, at the far end of something this long [m]."""
+    return t, t.at(length).moved(_FLIP)
 
 
-def _ears(
-    dn: int, style: ModelingStyle, count: int, x: float, thick: float, length: float, start: float = 0.0
-) -> list[Part]:
-    """Ears for control rods at both ends, beyond the flanges' rims, and the rods with their nuts."""
-    rim = FLANGES[dn].outer / 2
-    reach, bolt = rim + 0.02 + 0.05 * rim, 0.008 + 0.03 * rim
-    wide = 4 * bolt
-    ear = box((thick, reach + 1.5 * bolt - 0.93 * rim, wide), (x, 0.5 * (reach + 1.5 * bolt + 0.93 * rim), 0))
-    one = merge([moved(ear, spun("x", start + 2 * np.pi * k / count)) for k in range(count)])
-    parts = [_own(one, "steel"), *mirrored([_own(one, "steel")], length)]
-    return parts + bolting(count, reach, bolt, x - 0.5 * thick, length - x + 0.5 * thick, style, _ME, at(), start)
-
-
-def _rubber(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class RubberSphere(_Joint, name="expansion joint/rubber sphere", weight=1.0, grain="structure"):
     """A rubber sphere, single or double, between loose flanges (EN 15016 practice), with or without control rods."""
-    r, plate = PIPES[dn].radius, plate_thickness(dn)
-    n, spheres = style.round(1.5 * r), int(rng.choice([1, 1, 2]))
-    depth, long = 0.35 * r + 0.012, (0.9 * r + 0.06) * (1.0 if spheres == 1 else 1.7)
-    length = 2 * (plate + 0.012) + long
-    low = plate + 0.008
-    t = np.linspace(0, np.pi, 7)
-    arch: list[tuple[float, float]] = []
-    for k in range(spheres):
-        a = low + long * k / spheres
-        arch += [
-            (1.08 * r + depth * float(np.sin(s)), a + 0.004 + (long / spheres - 0.008) * float(1 - np.cos(s)) / 2)
-            for s in t
-        ]
-    bead = 1.35 * r + 0.004
-    neck = 1.08 * r
-    shape = [
-        (bead, 0.0),
-        (bead, 0.004),
-        (neck, 0.0045),
-        (neck, low),
-        *arch,
-        (neck, length - low),
-        (neck, length - 0.0045),
-    ]
-    body = lathe([*shape, (bead, length - 0.004), (bead, length)], n, bore_of(dn, style))
-    if spheres == 2 and rng.random() < 0.7:
-        ring_ = moved(torus(1.12 * r + 0.004, 0.06 * r + 0.004, n, 8), at(0.5 * length) @ spun("y", np.pi / 2))
-        body = merge([body, ring_])
-    loose = [Part(flat_flange(dn, style, 0.0045, plate - 0.0045, 1.081 * r), "flange", "flange", _ME)]
-    parts = [_own(body, "rubber"), *loose, *mirrored(loose, length)]
-    if rng.random() < 0.45:
-        parts += _ears(dn, style, int(rng.choice([2, 3, 4])), 0.5 * plate, 0.7 * plate, length)
-    return Model(parts, round(length, 9))
+
+    spheres: int = among((1, 1, 2), "spheres")
+    ringed: bool = chance(0.7, "a ring between two spheres", when=lambda p: p.spheres == 2)
+    tied: bool = chance(0.45, "control rods")
+    rods: int = among((2, 3, 4), "control rods", when=lambda p: p.tied, otherwise=0)
+
+    def build(self, t: Table) -> Model:
+        (r, n, bore), plate = sized(t.dn, t.style, 1.5), plate_thickness(t.dn)
+        depth, long = 0.35 * r + 0.012, (0.9 * r + 0.06) * (1.0 if self.spheres == 1 else 1.7)
+        length, low, neck, bead = 2 * (plate + 0.012) + long, plate + 0.008, 1.08 * r, 1.35 * r + 0.004
+        a, one = np.linspace(0, np.pi, 7), long / self.spheres
+        shape = outline(bead, 0.0, bead, 0.004, neck, 0.0045, neck, low)
+        for k in range(self.spheres):
+            start = low + long * k / self.spheres
+            shape += [
+                (neck + depth * float(np.sin(s)), start + 0.004 + (one - 0.008) * float(1 - np.cos(s)) / 2) for s in a
+            ]
+        shape += outline(neck, length - low, neck, length - 0.0045, bead, length - 0.004, bead, length)
+        ring = moved(torus(1.12 * r + 0.004, 0.06 * r + 0.004, n, 8), at(0.5 * length) @ spun("y", np.pi / 2))
+        t.add(_ME, lathe(shape, n, bore), *([ring] if self.ringed else []), of="rubber")
+        loose = flat_flange(t.dn, t.style, 0.0045, plate - 0.0045, 1.081 * r)
+        for end in _ways(t, length):
+            end.add("flange", loose)
+        if self.tied:
+            self._ties(t, 0.5 * plate, 0.7 * plate, length)
+        return t.model(round(length, 9))
+
+    def _ties(self, t: Table, x: float, thick: float, length: float) -> None:
+        """Ears for control rods at both ends, beyond the flanges' rims, and the rods with their nuts."""
+        rim, count = t.flange.outer / 2, self.rods
+        reach, bolt = rim + 0.02 + 0.05 * rim, 0.008 + 0.03 * rim
+        far = reach + 1.5 * bolt
+        ear = box((thick, far - 0.93 * rim, 4 * bolt), (x, 0.5 * (far + 0.93 * rim), 0))
+        ears = merge([moved(ear, spun("x", 2 * np.pi * k / count)) for k in range(count)])
+        for end in _ways(t, length):
+            end.add(_ME, ears, of="steel")
+        low, high = x - 0.5 * thick, length - x + 0.5 * thick
+        t.extend(bolting(count, reach, bolt, low, high, t.style, _ME, at(), 0.0))
 
 
-def _bellows_between(dn: int, style: ModelingStyle, rng: np.random.Generator, low: float, high: float) -> Solid:
-    """Metal bellows with collars at both ends from one place to another along x."""
-    r, n = PIPES[dn].radius, style.round(1.3 * PIPES[dn].radius)
-    depth = float(rng.uniform(0.15, 0.35)) * r + 0.004
-    count = max(2, min(10, int((high - low) / (0.25 * r + 0.008))))
-    cuff = 0.06 * (high - low)
-    return lathe([(1.02 * r, low), *_waved(low + cuff, high - cuff, 1.02 * r, depth, count), (1.02 * r, high)], n, 0.0)
+class Bellows(Params):
+    """Metal bellows with collars at both ends."""
+
+    depth: float = between(0.15, 0.35, "of a wave, less 4 mm / radius of the pipe")
+
+    def solid(self, t: Table, low: float, high: float) -> Solid:
+        """They from one place to another along x [m]."""
+        r, n, _ = sized(t.dn, t.style, 1.3)
+        depth, inner, cuff = self.depth * r + 0.004, 1.02 * r, 0.06 * (high - low)
+        count = max(2, min(10, int((high - low) / (0.25 * r + 0.008))))
+        swing = waves(low + cuff, high - cuff, inner, inner + depth, count)
+        return lathe([(inner, low), *swing, (inner, high)], n)
 
 
-def _hinged(dn: int, style: ModelingStyle, rng: np.random.Generator, gimbal: bool) -> Model:
-    """Bellows between pipe ends with a hinge: pairs of arms on rings and pins, or a gimbal ring between them (EJMA)."""
-    r, n = PIPES[dn].radius, style.round(1.5 * PIPES[dn].radius)
-    end, long = float(rng.uniform(0.8, 1.5)) * r + 0.05, float(rng.uniform(1.0, 1.8)) * r + 0.03
-    length, mid, outer = 2 * end + long, end + 0.5 * long, 1.5 * r + 0.02
-    parts = [_own(_bellows_between(dn, style, rng, end, end + long))]
-    ends = [Part(pipe_x(dn, 0.0, end, style), "pipe", "pipe")]
-    thick, wide = 0.008 + 0.06 * r, 0.5 * r + 0.02
-    plate = lathe([(outer, 0.75 * end - thick), (outer, 0.75 * end)], n, 0.99 * r)
-    arms = []
-    for side in (-1, 1):
-        arm = box(
-            (mid - 0.75 * end + 0.5 * wide, thick, wide),
-            (0.5 * (mid + 0.75 * end + 0.5 * wide), side * (outer + 0.5 * thick), 0),
-        )
-        stub = box((2 * thick, outer - 0.9 * r, wide), (0.75 * end - 0.5 * thick, side * 0.5 * (outer + 1.1 * r), 0))
-        arms += [arm, stub]
-    first = merge([plate, *arms])
-    parts.append(_own(first, "steel"))
-    back = at(length) @ _BACK @ (spun("x", np.pi / 2) if gimbal else at())
-    if gimbal:
-        ring_ = lathe(
-            [(outer - 0.001, mid - 0.45 * wide), (outer - 0.001, mid + 0.45 * wide)], n, outer - 0.001 - 1.2 * thick
-        )
-        parts += [_own(ring_, "steel"), _own(moved(first, back), "steel")]
-    else:
-        inner = [moved(s, np.diag([1.0, (outer - thick) / outer, 1.0, 1.0])) for s in arms]
-        parts.append(_own(moved(merge([plate, *inner]), back), "steel"))
-    for turn in (0.0, 0.5, 1.0, 1.5) if gimbal else (0.0, 1.0):
-        pin = lathe(
-            [
-                (0.2 * wide, -2.2 * thick),
-                (0.2 * wide, 1.5 * thick),
-                (0.3 * wide, 1.5 * thick),
-                (0.3 * wide, 2.1 * thick),
-            ],
-            10,
-        )
-        way = at(mid) @ spun("x", turn * np.pi) @ at(0, outer) @ spun("z", np.pi / 2)
-        parts.append(Part(moved(pin, way), "bolt", "fastener", _ME, BOLTED))
-    ends += [Part(pipe_x(dn, length - end, length, style), "pipe", "pipe")]
-    return Model([ends[0], *parts, ends[1]], round(length, 9), "welded")
+class Hinged(_Joint, name="expansion joint/hinged", sizes=SIZES[4:]):
+    """Bellows between pipe ends with a hinge: pairs of arms on rings and pins (EJMA)."""
+
+    end: float = between(0.8, 1.5, _END.format("50 mm"))
+    long: float = between(1.0, 1.8, _LONG.format("the bellows", "30 mm"))
+    bellows: Bellows = nested(Bellows, "bellows")
+
+    def build(self, t: Table) -> Model:
+        r, n, _ = sized(t.dn, t.style, 1.5)
+        end, long = self.end * r + 0.05, self.long * r + 0.03
+        length, mid, outer = 2 * end + long, end + 0.5 * long, 1.5 * r + 0.02
+        self.pipe(t, 0.0, end)
+        t.add(_ME, self.bellows.solid(t, end, end + long))
+        thick, wide, seat = 0.008 + 0.06 * r, 0.5 * r + 0.02, 0.75 * end
+        plate, tip = barrel(outer, seat - thick, seat, n, 0.99 * r), mid + 0.5 * wide
+        arms = []
+        for s in _BOTH:
+            arms.append(box((tip - seat, thick, wide), (0.5 * (tip + seat), s * (outer + 0.5 * thick), 0)))
+            stub = (2 * thick, outer - 0.9 * r, wide)
+            arms.append(box(stub, (seat - 0.5 * thick, s * 0.5 * (outer + 1.1 * r), 0)))
+        t.add(_ME, plate, *arms, of="steel")
+        self.other(t, length, outer, thick, wide, [plate, *arms])
+        a, b = 0.2 * wide, 0.3 * wide
+        pin = lathe(outline(a, -2.2 * thick, a, 1.5 * thick, b, 1.5 * thick, b, 2.1 * thick), 10)
+        for turn in self.pins():
+            way = t.at(mid).spun("x", turn * np.pi).at(0, outer).spun("z", np.pi / 2)
+            way.add("bolt", pin, fine=False, own=True)
+        self.pipe(t, length - end, length)
+        return t.model(round(length, 9), "welded")
+
+    def other(self, t: Table, length: float, outer: float, thick: float, wide: float, one: Sequence[Solid]) -> None:
+        """The other side: its arms lie within those of the one side [m]."""
+        within = np.diag([1.0, (outer - thick) / outer, 1.0, 1.0])
+        t.at(length).moved(BACK).add(_ME, one[0], *(moved(arm, within) for arm in one[1:]), of="steel")
+
+    def pins(self) -> Sequence[float]:
+        """Where its pins are, about the pipe / half a turn."""
+        return (0.0, 1.0)
 
 
-def _hinge(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
-    """A hinged metal expansion joint."""
-    return _hinged(dn, style, rng, False)
+class Gimbal(Hinged, name="expansion joint/gimbal", sizes=SIZES[4:]):
+    """Bellows between pipe ends with a gimbal: two pairs of arms on a ring between them, turned crosswise (EJMA)."""
+
+    def other(self, t: Table, length: float, outer: float, thick: float, wide: float, one: Sequence[Solid]) -> None:
+        """The gimbal ring, and the other side across the one side [m]."""
+        mid, reach, half = 0.5 * length, outer - 0.001, 0.45 * wide
+        t.add(_ME, barrel(reach, mid - half, mid + half, t.n(1.5 * t.pipe.radius), reach - 1.2 * thick), of="steel")
+        t.at(length).moved(BACK).spun("x", np.pi / 2).add(_ME, *one, of="steel")
+
+    def pins(self) -> Sequence[float]:
+        """Where its pins are, about the pipe / half a turn."""
+        return (0.0, 0.5, 1.0, 1.5)
 
 
-def _gimbal(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
-    """A gimbal metal expansion joint."""
-    return _hinged(dn, style, rng, True)
-
-
-def _universal(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class TiedUniversal(_Joint, name="expansion joint/tied universal", sizes=SIZES[4:]):
     """A tied universal expansion joint: two bellows with a pipe between them, end plates and long tie rods (EJMA)."""
-    r, n = PIPES[dn].radius, style.round(1.5 * PIPES[dn].radius)
-    end, one, mid = 0.8 * r + 0.05, float(rng.uniform(0.8, 1.3)) * r + 0.03, float(rng.uniform(1.5, 4.0)) * r + 0.05
-    length = 2 * (end + one) + mid
-    thick, outer = 0.01 + 0.07 * r, 1.75 * r + 0.03
-    bellows = _bellows_between(dn, style, rng, end, end + one)
-    pipes = [
-        Part(pipe_x(dn, a, b, style), "pipe", "pipe")
-        for a, b in ((0, end), (end + one, end + one + mid), (length - end, length))
-    ]
-    count = int(rng.choice([2, 3, 4, 4]))
-    x, bolt = 0.7 * end, 0.01 + 0.05 * r
-    if rng.random() < 0.5:
-        plate = lathe([(outer + 1.5 * bolt, x - thick), (outer + 1.5 * bolt, x)], n, 0.99 * r)
-    else:
-        lug = box(
-            (1.5 * thick, outer + 1.5 * bolt - 0.95 * r, 3.5 * bolt),
-            (x - 0.5 * thick, 0.5 * (outer + 1.5 * bolt + 0.95 * r), 0),
-        )
-        web = box((2.5 * thick, outer - 0.95 * r, 0.5 * thick), (x - 0.2 * thick, 0.5 * (outer + 0.95 * r), 0))
-        plate = merge([moved(merge([lug, web]), spun("x", 2 * np.pi * k / count)) for k in range(count)])
-    own = [_own(bellows), _own(plate, "steel")]
-    parts = [
-        *pipes,
-        *own,
-        *mirrored(own, length),
-        *bolting(count, outer, bolt, x - 1.25 * thick, length - x + 1.25 * thick, style, _ME, at(), 0.0),
-    ]
-    return Model(parts, round(length, 9), "welded")
+
+    one: float = between(0.8, 1.3, _LONG.format("one bellows", "30 mm"))
+    mid: float = between(1.5, 4.0, _LONG.format("the pipe between them", "50 mm"))
+    bellows: Bellows = nested(Bellows, "bellows")
+    rods: int = among((2, 3, 4, 4), "tie rods")
+    plated: bool = chance(0.5, "round plates hold the rods, not lugs")
+
+    def build(self, t: Table) -> Model:
+        r, n, _ = sized(t.dn, t.style, 1.5)
+        end, one, mid = 0.8 * r + 0.05, self.one * r + 0.03, self.mid * r + 0.05
+        length, thick, outer = 2 * (end + one) + mid, 0.01 + 0.07 * r, 1.75 * r + 0.03
+        for a, b in ((0, end), (end + one, end + one + mid), (length - end, length)):
+            self.pipe(t, a, b)
+        x, bolt, inner = 0.7 * end, 0.01 + 0.05 * r, 0.95 * r
+        far = outer + 1.5 * bolt
+        if self.plated:
+            plate = barrel(far, x - thick, x, n, 0.99 * r)
+        else:
+            lug = box((1.5 * thick, far - inner, 3.5 * bolt), (x - 0.5 * thick, 0.5 * (far + inner), 0))
+            web = box((2.5 * thick, outer - inner, 0.5 * thick), (x - 0.2 * thick, 0.5 * (outer + inner), 0))
+            lugs = merge([lug, web])
+            plate = merge([moved(lugs, spun("x", 2 * np.pi * k / self.rods)) for k in range(self.rods)])
+        bellows = self.bellows.solid(t, end, end + one)
+        for side in _ways(t, length):
+            side.add(_ME, bellows)
+            side.add(_ME, plate, of="steel")
+        low, high = x - 1.25 * thick, length - x + 1.25 * thick
+        t.extend(bolting(self.rods, outer, bolt, low, high, t.style, _ME, at(), 0.0))
+        return t.model(round(length, 9), "welded")
 
 
-def _lens(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class Lens(_Joint, name="expansion joint/lens", sizes=SIZES[3:]):
     """A lens compensator: one to three high, sharp waves welded of dished discs."""
-    r, n, bore = PIPES[dn].radius, style.round(1.8 * PIPES[dn].radius), bore_of(dn, style)
-    count, high, long = (
-        int(rng.integers(1, 4)),
-        float(rng.uniform(0.5, 0.9)) * r + 0.015,
-        float(rng.uniform(0.6, 1.0)) * r + 0.01,
-    )
-    end = 0.3 * r + 0.02
-    shape = [(r, 0.0), (r, end)]
-    for k in range(count):
-        a = end + k * 1.15 * long
-        shape += [(r + 0.15 * high, a + 0.2 * long), (r + 0.95 * high, a + 0.42 * long), (r + high, a + 0.5 * long)]
-        shape += [(r + 0.95 * high, a + 0.58 * long), (r + 0.15 * high, a + 0.8 * long), (r, a + long)]
-    length = end + count * 1.15 * long - 0.15 * long + end
-    return Model([_own(lathe([*shape, (r, length)], n, bore), "pipe")], round(length, 9), "welded")
+
+    count: int = whole(1, 3, "waves")
+    high: float = between(0.5, 0.9, "height of a wave, less 15 mm / radius of the pipe")
+    long: float = between(0.6, 1.0, _LONG.format("a wave", "10 mm"))
+
+    def build(self, t: Table) -> Model:
+        r, n, bore = sized(t.dn, t.style, 1.8)
+        high, long, end = self.high * r + 0.015, self.long * r + 0.01, 0.3 * r + 0.02
+        shape = outline(r, 0.0, r, end)
+        wave = ((0.15, 0.2), (0.95, 0.42), (1.0, 0.5), (0.95, 0.58), (0.15, 0.8), (0.0, 1.0))
+        for k in range(self.count):
+            shape += [(r + up * high, end + k * 1.15 * long + share * long) for up, share in wave]
+        length = end + self.count * 1.15 * long - 0.15 * long + end
+        t.add(_ME, lathe([*shape, (r, length)], n, bore), of="pipe")
+        return t.model(round(length, 9), "welded")
 
 
-def _slip(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class Slip(_Joint, name="expansion joint/slip", sizes=SIZES[2:]):
     """A slip joint: a pipe sliding in a wider body through a stuffing box whose gland is drawn in by bolts."""
-    r, n = PIPES[dn].radius, style.round(1.6 * PIPES[dn].radius)
-    slide, body = float(rng.uniform(1.5, 3.5)) * r + 0.06, float(rng.uniform(2.0, 4.0)) * r + 0.1
-    wide, flat, thick = 1.25 * r + 0.008, 1.75 * r + 0.03, 0.012 + 0.06 * r
-    length = slide + body
-    shape = [
-        (flat, slide),
-        (flat, slide + thick),
-        (wide, slide + thick),
-        (wide, length - 0.6 * r - 0.02),
-        (r, length - 0.1 * r - 0.01),
-    ]
-    box_ = lathe([*shape, (r, length)], n, bore_of(dn, style))
-    gland = lathe(
-        [(flat, slide - 2 * thick), (flat, slide - thick), (1.15 * r, slide - thick), (1.15 * r, slide)], n, r
-    )
-    count = 4 if dn < 100 else 8
-    parts = [
-        Part(pipe_x(dn, 0.0, slide + 0.2 * body, style), "pipe", "pipe"),
-        _own(box_, "valve"),
-        _own(gland, "valve"),
-    ]
-    parts += bolting(count, 0.5 * (flat + wide) + 0.004, 0.1 * r + 0.006, slide - 2 * thick, slide + thick, style, _ME)
-    if rng.random() < 0.5:
-        foot = box((0.25 * body, 1.6 * wide, 0.5 * wide), (slide + 0.6 * body, 0, -1.2 * wide))
-        parts.append(
-            Part(
-                merge([foot, box((0.4 * body, 2.2 * wide, 0.012), (slide + 0.6 * body, 0, -1.45 * wide))]),
-                "bracket",
-                "steel",
-                "",
-                BOLTED,
-            )
+
+    slide: float = between(1.5, 3.5, _LONG.format("the pipe before it", "60 mm"))
+    body: float = between(2.0, 4.0, _LONG.format("its body", "0.1 m"))
+    footed: bool = chance(0.5, "a foot under its body")
+
+    def build(self, t: Table) -> Model:
+        r, n, bore = sized(t.dn, t.style, 1.6)
+        slide, body, wide, flat, thick = (
+            self.slide * r + 0.06,
+            self.body * r + 0.1,
+            1.25 * r + 0.008,
+            1.75 * r + 0.03,
+            0.012 + 0.06 * r,
         )
-    return Model(parts, round(length, 9), "welded")
+        length, seat = slide + body, slide + thick
+        shape = outline(flat, slide, flat, seat, wide, seat, wide, length - 0.6 * r - 0.02, r, length - 0.1 * r - 0.01)
+        low, high, thin = slide - 2 * thick, slide - thick, 1.15 * r
+        self.pipe(t, 0.0, slide + 0.2 * body)
+        t.add(_ME, lathe([*shape, (r, length)], n, bore), of="valve")
+        t.add(_ME, lathe(outline(flat, low, flat, high, thin, high, thin, slide), n, r), of="valve")
+        count, circle_ = (4 if t.dn < 100 else 8), 0.5 * (flat + wide) + 0.004
+        t.extend(bolting(count, circle_, 0.1 * r + 0.006, low, seat, t.style, _ME))
+        if self.footed:
+            x = slide + 0.6 * body
+            foot = box((0.25 * body, 1.6 * wide, 0.5 * wide), (x, 0, -1.2 * wide))
+            t.add("bracket", foot, box((0.4 * body, 2.2 * wide, 0.012), (x, 0, -1.45 * wide)))
+        return t.model(round(length, 9), "welded")
 
 
-def _fabric(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class Fabric(_Joint, name="expansion joint/fabric", sizes=SIZES[6:]):
     """A fabric expansion joint: a wide belt of cloth clamped by flat bars with many bolts on two frames."""
-    r, n = PIPES[dn].radius, style.round(1.5 * PIPES[dn].radius)
-    end, wide = 0.4 * r + 0.03, float(rng.uniform(0.9, 1.6)) * r + 0.1
-    length, out = 2 * end + wide, 1.3 * r + 0.03
-    sag = pick(rng, -0.04, 0.05, 0.1) * r
-    belt = [
-        (out, end + 0.001),
-        (out + sag, end + 0.3 * wide),
-        (out + 1.2 * sag, length / 2),
-        (out + sag, length - end - 0.3 * wide),
-    ]
-    parts = [_own(lathe([*belt, (out, length - end - 0.001)], n, 0.9 * out), "rubber")]
-    bar = 0.03 + 0.05 * r
-    frame = merge(
-        [
-            lathe([(r, 0.0), (r, end), (0.97 * out, end), (0.97 * out, end + bar)], n, bore_of(dn, style)),
-            lathe([(1.12 * out, end - 0.008), (1.12 * out, end)], n, 0.99 * r),
+
+    wide: float = between(0.9, 1.6, "width of its belt, less 0.1 m / radius of the pipe")
+    sag: float = among((-0.04, 0.05, 0.1), "how far its belt stands out / radius of the pipe")
+    bolts: int = whole(6, 12, "bolts of a bar")
+
+    def build(self, t: Table) -> Model:
+        r, n, bore = sized(t.dn, t.style, 1.5)
+        end, wide, out, bar, sag = 0.4 * r + 0.03, self.wide * r + 0.1, 1.3 * r + 0.03, 0.03 + 0.05 * r, self.sag * r
+        length, frame = 2 * end + wide, 0.97 * out
+        belt = outline(out, end + 0.001, out + sag, end + 0.3 * wide, out + 1.2 * sag, length / 2)
+        belt += outline(out + sag, length - end - 0.3 * wide, out, length - end - 0.001)
+        skin = lathe(outline(r, 0.0, r, end, frame, end, frame, end + bar), n, bore)
+        skin = merge([skin, barrel(1.12 * out, end - 0.008, end, n, 0.99 * r)])
+        band = barrel(1.03 * out, end + 0.002, end + bar, n, 0.999 * out)
+        ways = [
+            spun("x", 2 * np.pi * k / self.bolts) @ at(0, 1.028 * out) @ spun("z", np.pi / 2) for k in range(self.bolts)
         ]
-    )
-    band = lathe([(1.03 * out, end + 0.002), (1.03 * out, end + bar)], n, 0.999 * out)
-    side = [Part(frame, "flange", "flange"), Part(band, "clamp", "clamp", "", BOLTED)]
-    count = int(rng.integers(6, 13))
-    heads = [
-        moved(
-            prism(0.014, 6, 0.0, 0.01),
-            at(end + 0.5 * bar) @ spun("x", 2 * np.pi * k / count) @ at(0, 1.028 * out) @ spun("z", np.pi / 2),
-        )
-        for k in range(count)
-    ]
-    side.append(Part(merge(heads), "bolt", "fastener", "", BOLTED, True))
-    return Model([side[0], *parts, *side[1:], *mirrored(side, length)], round(length, 9), "welded")
+        heads = merge([moved(prism(0.014, 6, 0.0, 0.01), at(end + 0.5 * bar) @ way) for way in ways])
+        for k, side in enumerate(_ways(t, length)):
+            side.add("flange", skin, own=False)
+            if not k:
+                t.add(_ME, lathe(belt, n, 0.9 * out), of="rubber")
+            side.add("clamp", band)
+            side.add("bolt", heads, own=False)
+        return t.model(round(length, 9), "welded")
 
 
-def _dismantling(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class Dismantling(_Joint, name="expansion joint/dismantling", sizes=SIZES[5:], grain="structure"):
     """A dismantling joint (AWWA C219): a flanged body and a flanged spigot in it, a ring between, long tie rods."""
-    r, size, plate = PIPES[dn].radius, FLANGES[dn], plate_thickness(dn)
-    n, length = style.round(1.4 * r), float(rng.uniform(0.16, 0.24)) + 0.6 * r
-    mid, bore = float(rng.uniform(0.45, 0.6)) * length, bore_of(dn, style)
-    body = merge(
-        [
-            flat_flange(dn, style, 0.0, plate, bore),
-            lathe([(1.2 * r + 0.006, plate), (1.2 * r + 0.006, mid - 0.01), (1.35 * r + 0.008, mid)], n, r),
-        ]
-    )
-    turns = (2 * np.arange(size.n_bolts) + 1) * np.pi / size.n_bolts
-    spots = size.circle / 2 * np.column_stack([np.cos(turns), np.sin(turns)])
-    ring_ = drilled(
-        circle(size.outer / 2, style.round(size.outer / 2)), mid, mid + plate, r, spots, size.hole / 2, style, n
-    )
-    spigot = merge(
-        [flat_flange(dn, style, length - plate, plate, bore), lathe([(r, 0.3 * mid), (r, length - plate)], n, bore)]
-    )
-    parts = [_own(body, "valve"), _own(ring_, "valve"), _own(spigot, "valve")]
-    nut = []
-    for x in (plate, mid - 0.8 * size.bolt, mid + plate, length - plate - 0.8 * size.bolt):
-        nut.append(prism(1.6 * size.bolt, 6, x, x + 0.8 * size.bolt))
-    shank = lathe([(size.bolt / 2, plate), (size.bolt / 2, length - plate)], 8)
-    count, step = size.n_bolts, int(rng.choice([1, 2]))
-    poses = [spun("x", float(turns[k])) @ at(0, size.circle / 2) for k in range(0, count, step)]
-    one = merge([shank, *nut])
-    if style.fasteners in ("set", "flange"):
-        return Model(
-            [*parts, Part(merge([moved(one, p) for p in poses]), "stud", "fastener", _ME, BOLTED, True)],
-            round(length, 9),
-        )
-    return Model(
-        [*parts, *(Part(moved(one, p), "stud", "fastener", _ME, BOLTED, True) for p in poses)], round(length, 9)
-    )
+
+    long: float = between(0.16, 0.24, "length, less 0.6 of the pipe's radius", "m")
+    mid: float = between(0.45, 0.6, "where its ring is / length")
+    step: int = among((1, 2), "bolt holes from rod to rod")
+
+    def build(self, t: Table) -> Model:
+        (r, n, bore), size, plate = sized(t.dn, t.style, 1.4), t.flange, plate_thickness(t.dn)
+        length, wide, bolt = self.long + 0.6 * r, 1.2 * r + 0.006, size.bolt
+        mid, far = self.mid * length, length - plate
+        body = lathe(outline(wide, plate, wide, mid - 0.01, 1.35 * r + 0.008, mid), n, r)
+        t.add(_ME, flat_flange(t.dn, t.style, 0.0, plate, bore), body, of="valve")
+        turns = (2 * np.arange(size.n_bolts) + 1) * np.pi / size.n_bolts
+        spots = size.circle / 2 * np.column_stack([np.cos(turns), np.sin(turns)])
+        rim = circle(size.outer / 2, t.n(size.outer / 2))
+        t.add(_ME, drilled(rim, mid, mid + plate, r, spots, size.hole / 2, t.style, n), of="valve")
+        spigot = barrel(r, 0.3 * mid, far, n, bore)
+        t.add(_ME, flat_flange(t.dn, t.style, far, plate, bore), spigot, of="valve")
+        places = (plate, mid - 0.8 * bolt, mid + plate, far - 0.8 * bolt)
+        nuts = [prism(1.6 * bolt, 6, x, x + 0.8 * bolt) for x in places]
+        one = merge([barrel(bolt / 2, plate, far, 8), *nuts])
+        studs = [moved(one, spun("x", float(turn)) @ at(0, size.circle / 2)) for turn in turns[:: self.step]]
+        for solids in [studs] if t.style.fasteners in ("set", "flange") else [[stud] for stud in studs]:
+            t.add("stud", *solids)
+        return t.model(round(length, 9))
 
 
-def _canned(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class GuideTube(_Joint, name="expansion joint/guide tube", sizes=SIZES[2:]):
     """An axial expansion joint in a guide tube: a long can round the bellows, rings at its ends, a drain boss."""
-    r, n = PIPES[dn].radius, style.round(1.6 * PIPES[dn].radius)
-    end, can, wide = float(rng.uniform(0.8, 2.0)) * r + 0.04, float(rng.uniform(2.5, 5.0)) * r + 0.1, 1.4 * r + 0.012
-    length = 2 * end + can
-    shell = lathe([(wide, end), (wide, end + can)], n, r)
-    caps = [lathe([(1.06 * wide, a), (1.06 * wide, a + 0.01)], n, r) for a in (end - 0.004, end + can - 0.006)]
-    boss = moved(
-        merge([lathe([(0.012, 0.9 * wide), (0.012, wide + 0.02)], 12), prism(0.026, 6, wide + 0.02, wide + 0.034)]),
-        at(end + 0.2 * can) @ spun("y", np.pi / 2),
-    )
-    parts = [Part(pipe_x(dn, 0.0, length, style), "pipe", "pipe"), _own(merge([shell, *caps]), "pipe")]
-    if rng.random() < 0.6:
-        parts.append(_own(boss, "pipe"))
-    return Model(parts, round(length, 9), "welded")
+
+    end: float = between(0.8, 2.0, _END.format("40 mm"))
+    can: float = between(2.5, 5.0, _LONG.format("its can", "0.1 m"))
+    drained: bool = chance(0.6, "a drain boss under its can")
+
+    def build(self, t: Table) -> Model:
+        r, n, _ = sized(t.dn, t.style, 1.6)
+        end, can, wide = self.end * r + 0.04, self.can * r + 0.1, 1.4 * r + 0.012
+        length = 2 * end + can
+        self.pipe(t, 0.0, length)
+        caps = [barrel(1.06 * wide, a, a + 0.01, n, r) for a in (end - 0.004, end + can - 0.006)]
+        t.add(_ME, barrel(wide, end, end + can, n, r), *caps, of="pipe")
+        if self.drained:
+            boss = [barrel(0.012, 0.9 * wide, wide + 0.02, 12), prism(0.026, 6, wide + 0.02, wide + 0.034)]
+            t.at(end + 0.2 * can).spun("y", np.pi / 2).add(_ME, *boss, of="pipe")
+        return t.model(round(length, 9), "welded")
 
 
-FLEXIBLES: tuple[Family, ...] = (
-    family("expansion joint/rubber sphere", _rubber, weight=1.0, grain="structure"),
-    family("expansion joint/hinged", _hinge, SIZES[4:]),
-    family("expansion joint/gimbal", _gimbal, SIZES[4:]),
-    family("expansion joint/tied universal", _universal, SIZES[4:]),
-    family("expansion joint/lens", _lens, SIZES[3:]),
-    family("expansion joint/slip", _slip, SIZES[2:]),
-    family("expansion joint/fabric", _fabric, SIZES[6:]),
-    family("expansion joint/dismantling", _dismantling, SIZES[5:], grain="structure"),
-    family("expansion joint/guide tube", _canned, SIZES[2:]),
-)
+FLEXIBLES = families_of(RubberSphere, Hinged, Gimbal, TiedUniversal, Lens, Slip, Fabric, Dismantling, GuideTube)

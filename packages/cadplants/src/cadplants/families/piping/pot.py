@@ -4,252 +4,220 @@ from __future__ import annotations
 
 import numpy as np
 
-from cadplants.families.chance import pick
+from cadplants.builder.device import families_of
+from cadplants.builder.params import among, between, chance
+from cadplants.builder.table import Table, outline
 from cadplants.families.piping.shape import (
-    BOLTED,
+    BACK,
+    UP,
+    Fitting,
+    barrel,
     bolting,
-    family,
     lathe,
     mouth,
     necks,
     prism,
+    sized,
     swell_room,
+    up_to,
 )
-from cadplants.family import Family, Model, Part
+from cadplants.family import Model
 from cadplants.flange import plate_thickness
-from cadplants.mesh_ops import Solid, merge, moved
-from cadplants.modeling_style import ModelingStyle
+from cadplants.mesh_ops import merge, moved
 from cadplants.primitives import around, box, cylinder, dome, hexagon, rod, torus, turned
-from cadplants.standards import FLANGES, PIPES, SIZES
+from cadplants.standards import SIZES
 from cadplants.transforms import at, spun
 
-__all__ = ["POTS"]
+__all__ = ["POTS", "Strainer"]
 
 _ME = "strainer"
-_UP, _DOWN = spun("y", -np.pi / 2), spun("y", np.pi / 2)
+_BOTH = (-1, 1)
+_POT, _LOW = "radius of its pot, less {} / radius of the pipe", "depth of its pot / radius of the pot"
 
 
-def _own(solid: Solid, color: str = "valve") -> Part:
-    return Part(solid, _ME, color, _ME)
+class Strainer(Fitting, bundle=_ME, weight=1.0, grain="structure"):
+    """A strainer in a line."""
 
 
-def _tee_type(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class Tee(Strainer, name="strainer/tee", sizes=SIZES[3:]):
     """A T strainer: a welded or cast tee with flanges in the line, a lid with handles on its upright mouth."""
-    n, size = style.round(PIPES[dn].radius), FLANGES[dn]
-    wide = float(rng.uniform(1.0, 1.5)) * 0.485 * size.hub
-    length = max(size.outer, 2.6 * wide) + 2 * swell_room(dn)
-    x, high = 0.5 * length, max(0.5 * size.outer, wide) + swell_room(dn) + 0.02
-    plate, collar = plate_thickness(dn), max(0.5 * size.outer, 1.35 * wide + 0.015)
-    low = -float(rng.uniform(1.0, 1.6)) * wide
-    pot = turned(
-        [(0.5 * wide, low - 0.3 * wide), (wide, low), (wide, high - plate), (collar, high - plate), (collar, high)], n
-    )
-    parts = [_own(merge([*necks(dn, style, length), moved(pot, at(x))]))]
-    way = at(x, 0, high) @ _UP
-    count = 8 if dn > 80 else 6
-    seal = moved(lathe([(0.75 * collar, 0.0), (0.75 * collar, 0.002)], n), way)
-    parts.append(Part(seal, "gasket", "gasket", _ME))
-    parts.append(_own(moved(lathe([(collar, 0.002), (collar, 0.002 + plate)], n), way)))
-    parts += bolting(count, 0.86 * collar, 0.06 * collar + 0.006, -plate, plate + 0.002, style, _ME, way)
-    for side in (-1, 1):
+
+    wide: float = between(1.0, 1.5, "radius of its pot / radius of the flanges' necks")
+    low: float = between(1.0, 1.6, _LOW)
+
+    def build(self, t: Table) -> Model:
+        (_, n, _), rim, plate = sized(t.dn, t.style), 0.5 * t.flange.outer, plate_thickness(t.dn)
+        wide, room = self.wide * 0.485 * t.flange.hub, swell_room(t.dn)
+        length, high = max(2 * rim, 2.6 * wide) + 2 * room, max(rim, wide) + room + 0.02
+        collar, low, under = max(rim, 1.35 * wide + 0.015), -self.low * wide, high - plate
+        x, bottom = 0.5 * length, low - 0.3 * wide
+        pot = outline(0.5 * wide, bottom, wide, low, wide, under, collar, under, collar, high)
+        t.add(_ME, *necks(t.dn, t.style, length), moved(turned(pot, n), at(x)))
+        lid, way = t.at(x, 0, high).moved(UP), at(x, 0, high) @ UP
+        lid.add("gasket", barrel(0.75 * collar, 0.0, 0.002, n))
+        lid.add(_ME, barrel(collar, 0.002, 0.002 + plate, n))
+        count, thread = 8 if t.dn > 80 else 6, 0.06 * collar + 0.006
+        t.extend(bolting(count, 0.86 * collar, thread, -plate, plate + 0.002, t.style, _ME, way))
         a = np.linspace(0, np.pi, 7)
-        top = high + plate
-        path = np.column_stack([x + 0.05 * np.cos(a), np.full(7, side * 0.3 * collar), top + 0.045 * np.sin(a)])
-        handle = merge([rod(p, q, 0.006, 8) for p, q in zip(path[:-1], path[1:], strict=True)])
-        parts.append(_own(handle, "handle"))
-    drain = moved(lathe([(0.014, 0.0), (0.014, 0.05)], 12), at(x, 0, low - 0.25 * wide) @ _DOWN)
-    plug = moved(prism(0.03, 6, 0.05, 0.065), at(x, 0, low - 0.25 * wide) @ _DOWN)
-    return Model([*parts, _own(drain), Part(plug, "pipe cap", "trim", _ME)], round(length, 9))
+        for s in _BOTH:
+            y = np.full(7, s * 0.3 * collar)
+            path = np.column_stack([x + 0.05 * np.cos(a), y, high + plate + 0.045 * np.sin(a)])
+            t.add(_ME, *(rod(p, q, 0.006, 8) for p, q in zip(path[:-1], path[1:], strict=True)), of="handle")
+        drain = t.at(x, 0, low - 0.25 * wide).spun("y", np.pi / 2)
+        drain.add(_ME, barrel(0.014, 0.0, 0.05, 12))
+        drain.add("pipe cap", prism(0.03, 6, 0.05, 0.065), of="trim")
+        return t.model(round(length, 9))
 
 
-def _quick_basket(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class Basket(Strainer, name="strainer/basket on legs", sizes=up_to(200)[3:]):
     """A basket strainer on three legs: a tall pot, a lid under swing bolts or a yoke with a hand screw."""
-    r, size = PIPES[dn].radius, FLANGES[dn]
-    pot = float(rng.uniform(1.8, 2.6)) * r + 0.03
-    n = style.round(pot)
-    length = 2 * pot + 2 * swell_room(dn) + 0.04
-    x, high = 0.5 * length, max(1.4 * r, 0.5 * size.outer) + 0.04
-    low, thick = -float(rng.uniform(2.2, 3.6)) * pot, 0.012 + 0.06 * pot
-    shell = [(0.3 * pot, low - 0.3 * pot), (0.8 * pot, low - 0.18 * pot), (pot, low), (pot, high - thick)]
-    shell += [(1.22 * pot, high - thick), (1.22 * pot, high)]
-    out = mouth("flanged", dn, style, 0.4 * pot, 0.5 * length)
-    body = [moved(turned(shell, n), at(x)), moved(out, at(x)), moved(out, at(x) @ spun("z", np.pi))]
-    parts = [_own(merge(body), "tank")]
-    lid = [turned([(1.22 * pot, high), (1.22 * pot, high + thick)], n)]
-    if rng.random() < 0.5:
-        lid.append(dome(0.85 * pot, 0.3 * pot, high + 0.9 * thick, n))
-    parts.append(_own(moved(merge(lid), at(x)), "tank"))
-    if rng.random() < 0.55:
-        one = merge(
+
+    pot: float = between(1.8, 2.6, _POT.format("30 mm"))
+    low: float = between(2.2, 3.6, _LOW)
+    domed: bool = chance(0.5, "a dome on its lid")
+    swung: bool = chance(0.55, "swing bolts, not a yoke with a hand screw")
+    bolts: int = among((4, 6), "swing bolts", when=lambda p: p.swung, otherwise=0)
+
+    def build(self, t: Table) -> Model:
+        r, pot = t.pipe.radius, self.pot * t.pipe.radius + 0.03
+        n, length, wide = t.n(pot), 2 * pot + 2 * swell_room(t.dn) + 0.04, 1.22 * pot
+        x, high = 0.5 * length, max(1.4 * r, 0.5 * t.flange.outer) + 0.04
+        low, thick = -self.low * pot, 0.012 + 0.06 * pot
+        t, under, over = t.at(x), high - thick, high + thick
+        shell = outline(0.3 * pot, low - 0.3 * pot, 0.8 * pot, low - 0.18 * pot, pot, low, pot, under, wide, under)
+        out = mouth("flanged", t.dn, t.style, 0.4 * pot, 0.5 * length)
+        t.add(_ME, turned([*shell, (wide, high)], n), out, moved(out, BACK), of="tank")
+        lid = [cylinder(wide, high, over, n)]
+        if self.domed:
+            lid.append(dome(0.85 * pot, 0.3 * pot, high + 0.9 * thick, n))
+        t.add(_ME, *lid, of="tank")
+        if self.swung:
+            a, b = high - 2 * thick, high + 1.8 * thick
+            eye = moved(
+                torus(0.09 * pot + 0.008, 0.025 * pot + 0.003, 12, 6), at(0, 0, b + 0.1 * pot) @ spun("x", np.pi / 2)
+            )
+            t.add("bolt", around(merge([cylinder(0.03 * pot + 0.004, a, b, 8), eye]), self.bolts, 1.16 * pot, 0.4))
+        else:
+            self._yoke(t, pot, over + 0.55 * pot, high - 2 * thick, over)
+        leg = merge(
             [
-                cylinder(0.03 * pot + 0.004, high - 2 * thick, high + 1.8 * thick, 8),
-                moved(
-                    torus(0.09 * pot + 0.008, 0.025 * pot + 0.003, 12, 6),
-                    at(0, 0, high + 1.8 * thick + 0.1 * pot) @ spun("x", np.pi / 2),
-                ),
+                box((0.05, 0.008, 0.9 * pot + 0.1), (0, 0, low - 0.45 * pot)),
+                box((0.09, 0.09, 0.01), (0, 0, low - 0.9 * pot - 0.055)),
             ]
         )
-        eye = around(one, int(rng.choice([4, 6])), 1.16 * pot, 0.4)
-        parts.append(Part(moved(eye, at(x)), "bolt", "fastener", _ME, BOLTED, True))
-    else:
-        top = high + thick + 0.3 * pot
-        beam = box((0.22 * pot, 2.7 * pot, 0.18 * pot), (x, 0, top + 0.25 * pot))
-        posts = [
-            box(
-                (0.2 * pot, 0.1 * pot, top + 0.25 * pot - high + 2 * thick),
-                (x, s * 1.3 * pot, 0.5 * (top + 0.25 * pot + high - 2 * thick)),
-            )
-            for s in (-1, 1)
-        ]
-        screw = cylinder(0.07 * pot, high + thick, top + 0.7 * pot, 10)
-        bar = rod((x - 0.6 * pot, 0, top + 0.65 * pot), (x + 0.6 * pot, 0, top + 0.65 * pot), 0.04 * pot, 8)
-        parts.append(_own(merge([beam, *posts, moved(screw, at(x)), bar]), "handle"))
-    legs = merge(
-        [
-            box((0.05, 0.008, 0.9 * pot + 0.1), (0, 0, low - 0.45 * pot - 0.0)),
-            box((0.09, 0.09, 0.01), (0, 0, low - 0.9 * pot - 0.055)),
-        ]
-    )
-    for k in range(3):
-        turn = at(x) @ spun("z", 0.5 + 2 * np.pi * k / 3) @ at(pot)
-        parts.append(Part(moved(legs, turn), "tank leg", "steel", _ME, "Tank"))
-    return Model(parts, round(length, 9))
+        for k in range(3):
+            t.spun("z", 0.5 + 2 * np.pi * k / 3).at(pot).add("tank leg", leg, own=True)
+        return t.model(round(length, 9))
+
+    def _yoke(self, t: Table, pot: float, top: float, low: float, lid: float) -> None:
+        """A yoke over the lid, its beam on a height, its posts from another, and the hand screw in it [m]."""
+        beam = box((0.22 * pot, 2.7 * pot, 0.18 * pot), (0, 0, top))
+        post = (0.2 * pot, 0.1 * pot, top - low)
+        posts = [box(post, (0, s * 1.3 * pot, 0.5 * (top + low))) for s in _BOTH]
+        screw = cylinder(0.07 * pot, lid, top + 0.45 * pot, 10)
+        bar = rod((-0.6 * pot, 0, top + 0.4 * pot), (0.6 * pot, 0, top + 0.4 * pot), 0.04 * pot, 8)
+        t.add(_ME, beam, *posts, screw, bar, of="handle")
 
 
-def _duplex(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class Duplex(Strainer, name="strainer/duplex", sizes=up_to(200)[2:]):
     """A duplex strainer: two pots beside the line, a change-over valve with a lever, lids with T screws."""
-    r = PIPES[dn].radius
-    pot = float(rng.uniform(1.6, 2.1)) * r + 0.025
-    n = style.round(pot)
-    length = max(3.0 * pot, 2.6 * r + 0.06) + 2 * swell_room(dn)
-    x, gap = 0.5 * length, 1.35 * pot + 1.1 * r
-    high, low = 1.2 * r + 0.35 * pot + 0.02, -2.4 * pot
-    body = [*necks(dn, style, length), lathe([(1.5 * r, x - 1.3 * r), (1.5 * r, x + 1.3 * r)], n)]
-    body[2] = moved(cylinder(1.6 * r + 0.01, -1.5 * r, high + 0.2 * pot, n), at(x))
-    cross = moved(lathe([(1.1 * r, -gap), (1.1 * r, gap)], n), at(x) @ spun("z", np.pi / 2))
-    parts = [_own(merge([*body, cross]))]
-    for side in (-1, 1):
-        shell = [
-            (0.5 * pot, low - 0.2 * pot),
-            (pot, low),
-            (pot, high - 0.15 * pot),
-            (1.2 * pot, high - 0.15 * pot),
-            (1.2 * pot, high),
-        ]
-        where = at(x, side * gap)
-        parts.append(_own(moved(turned(shell, n), where)))
-        lid = [turned([(1.2 * pot, high), (1.2 * pot, high + 0.14 * pot), (0.4 * pot, high + 0.3 * pot)], n)]
-        bar = rod((-0.6 * pot, 0, high + 0.75 * pot), (0.6 * pot, 0, high + 0.75 * pot), 0.06 * pot, 8)
-        lid += [cylinder(0.1 * pot, high + 0.2 * pot, high + 0.8 * pot, 8), bar]
-        parts.append(_own(moved(merge(lid), where)))
-        plug = hexagon(0.5 * pot, low - 0.38 * pot, low - 0.2 * pot)
-        parts.append(Part(moved(plug, where), "pipe cap", "trim", _ME))
-    top = high + 0.2 * pot
-    stem = cylinder(0.25 * r + 0.004, top, top + 0.5 * r + 0.03, 10)
-    turn = pick(rng, 0.5, -0.5, 0.25) * np.pi
-    lever = merge(
-        [
-            cylinder(0.5 * r + 0.008, top + 0.3 * r + 0.01, top + 0.5 * r + 0.03, 12),
-            box((0.18 + 3 * r, 0.03 + 0.2 * r, 0.012), (0.09 + 1.5 * r, 0, top + 0.4 * r + 0.02)),
-        ]
-    )
-    parts += [
-        _own(moved(stem, at(x)), "trim"),
-        Part(moved(lever, at(x) @ spun("z", turn)), "lever", "handle", "", "Valve assembly"),
-    ]
-    return Model(parts, round(length, 9))
+
+    pot: float = between(1.6, 2.1, _POT.format("25 mm"))
+    turn: float = among((0.5, -0.5, 0.25), "of its lever / half a turn")
+
+    def build(self, t: Table) -> Model:
+        r, pot = t.pipe.radius, self.pot * t.pipe.radius + 0.025
+        n, length = t.n(pot), max(3.0 * pot, 2.6 * r + 0.06) + 2 * swell_room(t.dn)
+        x, gap, wide = 0.5 * length, 1.35 * pot + 1.1 * r, 1.2 * pot
+        high, low = 1.2 * r + 0.35 * pot + 0.02, -2.4 * pot
+        top, under = high + 0.2 * pot, high - 0.15 * pot
+        valve = moved(cylinder(1.6 * r + 0.01, -1.5 * r, top, n), at(x))
+        cross = moved(barrel(1.1 * r, -gap, gap, n), at(x) @ spun("z", np.pi / 2))
+        t.add(_ME, *necks(t.dn, t.style, length), valve, cross)
+        shell = outline(0.5 * pot, low - 0.2 * pot, pot, low, pot, under, wide, under, wide, high)
+        lid = [turned(outline(wide, high, wide, high + 0.14 * pot, 0.4 * pot, high + 0.3 * pot), n)]
+        lid.append(cylinder(0.1 * pot, top, high + 0.8 * pot, 8))
+        lid.append(rod((-0.6 * pot, 0, high + 0.75 * pot), (0.6 * pot, 0, high + 0.75 * pot), 0.06 * pot, 8))
+        t = t.at(x)
+        for s in _BOTH:
+            side = t.at(0, s * gap)
+            side.add(_ME, turned(shell, n))
+            side.add(_ME, *lid)
+            side.add("pipe cap", hexagon(0.5 * pot, low - 0.38 * pot, low - 0.2 * pot), of="trim")
+        end = top + 0.5 * r + 0.03
+        t.add(_ME, cylinder(0.25 * r + 0.004, top, end, 10), of="trim")
+        bar = box((0.18 + 3 * r, 0.03 + 0.2 * r, 0.012), (0.09 + 1.5 * r, 0, top + 0.4 * r + 0.02))
+        hub = cylinder(0.5 * r + 0.008, top + 0.3 * r + 0.01, end, 12)
+        t.spun("z", self.turn * np.pi).add("lever", hub, bar)
+        return t.model(round(length, 9))
 
 
-def _separator(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class DirtSeparator(Strainer, name="strainer/dirt separator", sizes=up_to(200)[3:]):
     """A dirt separator: an upright vessel with dished ends across the line, a drain cock, a vent or plug."""
-    r, size = PIPES[dn].radius, FLANGES[dn]
-    pot = float(rng.uniform(1.7, 2.3)) * r + 0.02
-    n = style.round(pot)
-    length = 2 * pot + 2 * swell_room(dn) + float(rng.uniform(0.02, 0.1))
-    x, tall, deep = (
-        0.5 * length,
-        float(rng.uniform(1.0, 2.2)) * pot + 0.4 * size.outer,
-        float(rng.uniform(1.5, 3.5)) * pot,
-    )
-    a = np.linspace(0, np.pi / 2, 6)
-    bottom = [(max(0.05, np.sin(t)) * pot, -deep - 0.5 * pot * np.cos(t)) for t in a]
-    top = [(max(0.05, np.cos(t)) * pot, tall + 0.5 * pot * np.sin(t)) for t in a]
-    parts = [_own(merge([*necks(dn, style, length), moved(turned([*bottom, *top], n), at(x))]), "tank")]
-    if rng.random() < 0.5:
-        collar = [turned([(1.25 * pot, -deep * 0.6), (1.25 * pot, -deep * 0.6 + 0.03)], n)]
-        parts[0] = _own(merge([parts[0].solid, moved(collar[0], at(x))]), "tank")
-        way = at(x, 0, -deep * 0.6 + 0.015) @ _UP
-        parts += bolting(12, 1.17 * pot, 0.012, -0.015, 0.015, style, _ME, way)
-    low = -deep - 0.48 * pot
-    drain = merge([cylinder(0.012, low - 0.05, low, 10), hexagon(0.03, low - 0.075, low - 0.045)])
-    parts.append(Part(moved(drain, at(x)), "valve body", "trim", _ME, "Valve assembly"))
-    lever = box((0.09, 0.018, 0.004), (x + 0.04, 0.02, low - 0.06))
-    parts.append(Part(lever, "lever", "handle", _ME, "Valve assembly"))
-    high = tall + 0.48 * pot
-    vent = (
-        cylinder(0.02, high + 0.02, high + 0.07, 12)
-        if rng.random() < 0.5
-        else hexagon(0.035, high + 0.012, high + 0.03)
-    )
-    parts.append(Part(moved(merge([vent, cylinder(0.01, high, high + 0.022, 10)]), at(x)), "nipple", "trim", _ME))
-    return Model(parts, round(length, 9))
+
+    pot: float = between(1.7, 2.3, _POT.format("20 mm"))
+    room: float = between(0.02, 0.1, "how far its mouths stand out more than they must", "m")
+    tall: float = between(1.0, 2.2, "height over the axis, less 0.4 of the flange's diameter / radius of the pot")
+    deep: float = between(1.5, 3.5, _LOW)
+    split: bool = chance(0.5, "a bolted collar round its lower part")
+    vented: bool = chance(0.5, "a vent on it, not a plug")
+
+    def build(self, t: Table) -> Model:
+        pot = self.pot * t.pipe.radius + 0.02
+        n, length = t.n(pot), 2 * pot + 2 * swell_room(t.dn) + self.room
+        x, tall, deep = 0.5 * length, self.tall * pot + 0.4 * t.flange.outer, self.deep * pot
+        a, seam = np.linspace(0, np.pi / 2, 6), -deep * 0.6
+        shell = [(max(0.05, np.sin(s)) * pot, -deep - 0.5 * pot * np.cos(s)) for s in a]
+        shell += [(max(0.05, np.cos(s)) * pot, tall + 0.5 * pot * np.sin(s)) for s in a]
+        body = [*necks(t.dn, t.style, length), moved(turned(shell, n), at(x))]
+        if self.split:
+            body.append(moved(cylinder(1.25 * pot, seam, seam + 0.03, n), at(x)))
+        t.add(_ME, *body, of="tank")
+        if self.split:
+            way = at(x, 0, seam + 0.015) @ UP
+            t.extend(bolting(12, 1.17 * pot, 0.012, -0.015, 0.015, t.style, _ME, way))
+        low, high, t = -deep - 0.48 * pot, tall + 0.48 * pot, t.at(x)
+        drain = [cylinder(0.012, low - 0.05, low, 10), hexagon(0.03, low - 0.075, low - 0.045)]
+        t.add("valve body", *drain, of="trim", own=True)
+        t.add("lever", box((0.09, 0.018, 0.004), (0.04, 0.02, low - 0.06)), own=True)
+        vent = cylinder(0.02, high + 0.02, high + 0.07, 12)
+        plug = hexagon(0.035, high + 0.012, high + 0.03)
+        t.add("nipple", vent if self.vented else plug, cylinder(0.01, high, high + 0.022, 10), of="trim")
+        return t.model(round(length, 9))
 
 
-def _self_cleaning(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class SelfCleaning(Strainer, name="strainer/self-cleaning", sizes=up_to(200)[5:]):
     """A self-cleaning strainer: a housing with a bolted head, a gear motor on it and a flush outlet below."""
-    r, size = PIPES[dn].radius, FLANGES[dn]
-    pot = float(rng.uniform(1.9, 2.6)) * r + 0.04
-    n = style.round(pot)
-    length = 2 * pot + 2 * swell_room(dn) + 0.05
-    x, plate = 0.5 * length, 0.018 + 0.05 * pot
-    low, high = -float(rng.uniform(1.6, 2.6)) * pot, max(1.3 * r, 0.5 * size.outer) + 0.05
-    cone = 0.7 * pot
-    shell = [(0.25 * pot, low - cone - 0.08), (0.25 * pot, low - cone), (pot, low), (pot, high - plate)]
-    shell += [(1.2 * pot, high - plate), (1.2 * pot, high)]
-    parts = [_own(merge([*necks(dn, style, length), moved(turned(shell, n), at(x))]), "tank")]
-    way = at(x, 0, high) @ _UP
-    lid = lathe([(1.2 * pot, 0.0), (1.2 * pot, plate), (0.4 * pot, 1.4 * plate)], n)
-    parts.append(_own(moved(lid, way), "tank"))
-    parts += bolting(12 if dn > 80 else 8, 1.1 * pot, 0.012 + 0.02 * pot, -plate, plate, style, _ME, way)
-    q, base = 0.35 * pot + 0.02, high + 1.4 * plate
-    gear = merge(
-        [cylinder(0.7 * q, base, base + 0.5 * q, 14), box((2.0 * q, 1.8 * q, 1.2 * q), (0, 0, base + 1.1 * q))]
-    )
-    parts.append(Part(moved(gear, at(x)), "gearbox", "motor", "", "Valve assembly"))
-    tall = float(rng.uniform(2.0, 3.2)) * q
-    motor = merge(
-        [
-            cylinder(0.85 * q, base + 1.7 * q, base + 1.7 * q + tall, 20),
-            cylinder(0.9 * q, base + 1.7 * q + tall, base + 2.1 * q + tall, 20),
-        ]
-    )
-    fins = around(box((0.12 * q, 0.05 * q, 0.8 * tall), (0, 0, base + 1.7 * q + 0.45 * tall)), 16, 0.87 * q)
-    parts.append(Part(moved(merge([motor, fins]), at(x)), "motor", "motor", "", "Pump unit"))
-    parts.append(
-        Part(
-            moved(box((0.8 * q, 0.6 * q, 0.8 * q), (1.1 * q, 0, base + 1.7 * q + 0.5 * tall)), at(x)),
-            "terminal box",
-            "motor",
-            "",
-            "Pump unit",
-        )
-    )
-    for k in range(int(rng.choice([0, 3, 4]))):
-        turn = at(x) @ spun("z", 0.6 + 2 * np.pi * k / 4) @ at(0.97 * pot)
+
+    pot: float = between(1.9, 2.6, _POT.format("40 mm"))
+    low: float = between(1.6, 2.6, _LOW)
+    motor: float = between(2.0, 3.2, "length of its motor / half the width of the gearbox")
+    legs: int = among((0, 3, 4), "legs")
+
+    def build(self, t: Table) -> Model:
+        r, pot = t.pipe.radius, self.pot * t.pipe.radius + 0.04
+        n, length, wide, cone = t.n(pot), 2 * pot + 2 * swell_room(t.dn) + 0.05, 1.2 * pot, 0.7 * pot
+        x, plate, thin, low = 0.5 * length, 0.018 + 0.05 * pot, 0.25 * pot, -self.low * pot
+        high = max(1.3 * r, 0.5 * t.flange.outer) + 0.05
+        under, foot = high - plate, low - cone
+        shell = outline(thin, foot - 0.08, thin, foot, pot, low, pot, under, wide, under, wide, high)
+        t.add(_ME, *necks(t.dn, t.style, length), moved(turned(shell, n), at(x)), of="tank")
+        t = t.at(x)
+        lid, way = outline(wide, 0.0, wide, plate, 0.4 * pot, 1.4 * plate), at(0, 0, high) @ UP
+        t.moved(way).add(_ME, lathe(lid, n), of="tank")
+        count = 12 if t.dn > 80 else 8
+        t.extend(bolting(count, 1.1 * pot, 0.012 + 0.02 * pot, -plate, plate, t.style, _ME, way))
+        q, base = 0.35 * pot + 0.02, high + 1.4 * plate
+        case = box((2.0 * q, 1.8 * q, 1.2 * q), (0, 0, base + 1.1 * q))
+        t.add("gearbox", cylinder(0.7 * q, base, base + 0.5 * q, 14), case, of="motor")
+        tall, on = self.motor * q, base + 1.7 * q
+        motor = [cylinder(0.85 * q, on, on + tall, 20), cylinder(0.9 * q, on + tall, base + 2.1 * q + tall, 20)]
+        t.add("motor", *motor, around(box((0.12 * q, 0.05 * q, 0.8 * tall), (0, 0, on + 0.45 * tall)), 16, 0.87 * q))
+        t.add("terminal box", box((0.8 * q, 0.6 * q, 0.8 * q), (1.1 * q, 0, on + 0.5 * tall)))
         leg = box((0.05, 0.05, cone + 0.3), (0, 0, low - 0.5 * cone - 0.1))
-        parts.append(Part(moved(leg, turn), "tank leg", "steel", "", "Tank"))
-    return Model(parts, round(length, 9))
+        for k in range(self.legs):
+            t.spun("z", 0.6 + 2 * np.pi * k / 4).at(0.97 * pot).add("tank leg", leg)
+        return t.model(round(length, 9))
 
 
-_MIDDLE = tuple(dn for dn in SIZES if dn <= 200)
-
-POTS: tuple[Family, ...] = tuple(
-    family(f"strainer/{name}", build, sizes, "inline", weight, "structure")
-    for name, build, sizes, weight in (
-        ("tee", _tee_type, SIZES[3:], 1.0),
-        ("basket on legs", _quick_basket, _MIDDLE[3:], 1.0),
-        ("duplex", _duplex, _MIDDLE[2:], 1.0),
-        ("dirt separator", _separator, _MIDDLE[3:], 1.0),
-        ("self-cleaning", _self_cleaning, _MIDDLE[5:], 1.0),
-    )
-)
+POTS = families_of(Tee, Basket, Duplex, DirtSeparator, SelfCleaning)

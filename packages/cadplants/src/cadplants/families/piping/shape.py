@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from typing import Any
 
 import numpy as np
 
 from cadgraph.model.scene import Floats
-from cadplants.family import Build, Family, Part, placed
+from cadplants.builder.device import Device
+from cadplants.builder.params import Params, among, between, given
+from cadplants.builder.table import Table
+from cadplants.family import Part
 from cadplants.flange import bolts, flange, flange_length, gasket, nut_room, plate_thickness
 from cadplants.mesh_ops import Solid, about_x, extrude, loft, merge, moved, weld
 from cadplants.modeling_style import ModelingStyle
@@ -20,21 +24,27 @@ from cadplants.transforms import IDENTITY, arc, at, spun
 from cadplants.valve_body import bore_of
 
 __all__ = [
+    "BACK",
     "BOLTED",
+    "ENDS",
+    "QUARTERS",
+    "ROLL",
     "SMALL",
-    "STEEL",
+    "UP",
+    "Fitting",
     "Outline",
+    "Tail",
+    "barrel",
+    "below",
     "bend_path",
     "bolting",
     "counter",
     "drilled",
-    "family",
     "flat_flange",
     "grooved",
     "joint",
     "knurled",
     "lathe",
-    "mirrored",
     "mouth",
     "necks",
     "notched",
@@ -42,32 +52,56 @@ __all__ = [
     "pipe_x",
     "prism",
     "seated",
+    "sized",
     "swell_room",
-    "tail",
+    "tails",
+    "up_to",
 ]
 
 Outline = Sequence[tuple[float, float]]
-BOLTED, STEEL = "Connection assembly", "Structural element"
+BOLTED = "Connection assembly"
 SMALL = tuple(dn for dn in SIZES if dn <= 50)
+
+ENDS = ("open", "cap", "flange", "lid")
+"""What the end of a piece of pipe can be."""
+QUARTERS, ROLL = (0.0, 0.5, 1.0, 1.5), "how it is turned about the pipe / half a turn"
+UP, BACK = spun("y", -np.pi / 2), spun("z", np.pi)
 
 _COLORS = {"flange": "flange", "blind flange": "flange", "gasket": "gasket", "pipe": "pipe", "pipe cap": "pipe"}
 
 
-def family(
-    name: str,
-    build: Build,
-    sizes: tuple[int, ...] = SIZES,
-    place: str = "inline",
-    weight: float = 0.5,
-    grain: str = "fitting",
-) -> Family:
-    """A family of fittings; by default its pieces stay apart, since neighbours of other names come with them."""
-    return Family(name, place, "Pipe assembly", name.split("/")[0], build, sizes, grain, weight)
+class Fitting(Device, place="inline", group="Pipe assembly", weight=0.5, grain="fitting"):
+    """A fitting; by default its pieces stay apart, since neighbours of other names come with them."""
+
+    def __init_subclass__(cls, **said: Any) -> None:
+        super().__init_subclass__(**said)
+        cls.label = cls.name.split("/")[0]
+
+
+def up_to(largest: int, smallest: int = 0) -> tuple[int, ...]:
+    """The nominal sizes from one to another [mm]."""
+    return tuple(dn for dn in SIZES if smallest <= dn <= largest)
+
+
+def below(dn: int, count: int) -> Sequence[int]:
+    """The next smaller nominal sizes [mm], as many as there are of a count."""
+    return [size for size in SIZES if size < dn][-count:]
+
+
+def sized(dn: int, style: ModelingStyle, wide: float = 1.0) -> tuple[float, int, float]:
+    """Radius of a pipe, sides of a circle that is wider by a factor, and the pipe's inside radius [m]."""
+    r = PIPES[dn].radius
+    return r, style.round(wide * r), bore_of(dn, style)
 
 
 def lathe(outline: Outline, sides: int, bore: float = 0.0) -> Solid:
     """What is turned about x: ``(radius, x)`` along its outside, with a round bore right through [m]."""
     return about_x(turned(list(outline), sides, bore=bore))
+
+
+def barrel(radius: float, low: float, high: float, sides: int, bore: float = 0.0) -> Solid:
+    """A cylinder along x with a round bore right through [m]."""
+    return lathe([(radius, low), (radius, high)], sides, bore)
 
 
 def pipe_x(dn: int, low: float, high: float, style: ModelingStyle) -> Solid:
@@ -256,16 +290,28 @@ def grooved(dn: int, style: ModelingStyle, pose: Floats, ribbed: bool = False) -
     return parts
 
 
-def tail(dn: int, style: ModelingStyle, rng: np.random.Generator, pose: Floats, kinds: str = "ocfb") -> list[Part]:
-    """What goes on from a mouth along x of the pose: a piece of pipe, open or with a cap, a flange or a lid on it."""
-    length = float(rng.uniform(0.04, 0.25)) + 1.5 * PIPES[dn].outer
-    parts = [Part(moved(pipe_x(dn, 0.0, length, style), pose), "pipe", "pipe")]
-    end, kind = pose @ at(length), kinds[int(rng.integers(len(kinds)))]
-    if kind == "c":
-        parts += parts_of(cap(dn, style), end)
-    elif kind in "fb":
-        parts += joint(dn, style, end, blind=kind == "b", open_=kind == "f")[0]
-    return parts
+class Tail(Params):
+    """What goes on from a mouth: a piece of pipe, open or with a cap, a flange or a lid on it."""
+
+    ends: tuple[str, ...] = given(ENDS, "what its end can be")
+    long: float = between(0.04, 0.25, "length of its pipe beyond one and a half diameters", "m")
+    end: str = among(lambda p: p.ends, "what its end is")
+
+    def build(self, t: Table, dn: int = 0) -> None:
+        """Puts it down along x, of a nominal size or the table's."""
+        dn = dn or t.dn
+        length = self.long + 1.5 * PIPES[dn].outer
+        t.add("pipe", pipe_x(dn, 0.0, length, t.style), own=False)
+        if self.end == "cap":
+            t.at(length).extend(parts_of(cap(dn, t.style)))
+        elif self.end != "open":
+            blind = self.end == "lid"
+            t.extend(joint(dn, t.style, at(length), blind=blind, open_=not blind)[0])
+
+
+def tails(*ends: str) -> Callable[[Any, Any], Tail]:
+    """Draws what goes on from a mouth, its end one of some; what stands twice is twice as likely."""
+    return lambda source, _: Tail.draw(source, {"ends": ends})
 
 
 def bend_path(radius: float, turn: float, steps: int, lead: float = 0.0) -> tuple[Floats, float]:
@@ -314,11 +360,6 @@ def seated(outline: Outline, run: float, sides: int, bore: float = 0.0, sunk: fl
         inner = [np.column_stack([bore * unit, np.full(sides, top)]), foot(bore, 0.0)]
         return weld([loft([*loops, *inner], closed=True)])
     return weld([loft([loops[0].mean(axis=0)[None], *loops, loops[-1].mean(axis=0)[None]])])
-
-
-def mirrored(parts: Sequence[Part], length: float) -> list[Part]:
-    """The same pieces at the other end of something this long [m]."""
-    return placed(parts, at(length) @ np.diag([-1.0, 1.0, 1.0, 1.0]))
 
 
 def swell_room(dn: int) -> float:
