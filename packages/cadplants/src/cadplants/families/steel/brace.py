@@ -14,7 +14,7 @@ from cadplants.families.steel.shape import (
     bar,
     base,
     bolted,
-    chance,
+    chance_ as chance,
     drawn,
     few_sides,
     flat,

@@ -11,7 +11,7 @@ from cadplants.families.chance import pick
 from cadplants.families.steel.shape import (
     bar,
     bolted,
-    chance,
+    chance_ as chance,
     drawn,
     few_sides,
     floor_family,

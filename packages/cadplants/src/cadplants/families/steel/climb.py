@@ -9,7 +9,7 @@ from cadplants.families.steel.caster import wheeled
 from cadplants.families.steel.floor import panel
 from cadplants.families.steel.shape import (
     bar,
-    chance,
+    chance_ as chance,
     drawn,
     few_sides,
     filleted,

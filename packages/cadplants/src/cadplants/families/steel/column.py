@@ -8,7 +8,7 @@ from cadplants.families.chance import pick
 from cadplants.families.steel.shape import (
     bar,
     base,
-    chance,
+    chance_ as chance,
     drawn,
     few_sides,
     flat,

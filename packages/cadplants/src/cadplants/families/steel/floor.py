@@ -10,7 +10,7 @@ from cadplants.families.steel.caster import wheeled
 from cadplants.families.steel.shape import (
     bar,
     base,
-    chance,
+    chance_ as chance,
     drawn,
     few_sides,
     floor_family,

@@ -7,7 +7,7 @@ import numpy as np
 from cadgraph.model.scene import Floats
 from cadplants.families.chance import pick
 from cadplants.families.steel.shape import (
-    chance,
+    chance_ as chance,
     few_sides,
     floor_family,
     num,

@@ -9,7 +9,7 @@ from cadplants.families.steel.shape import (
     Section,
     bar,
     bolted,
-    chance,
+    chance_ as chance,
     drawn,
     few_sides,
     floor_family,

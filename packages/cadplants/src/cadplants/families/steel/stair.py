@@ -9,7 +9,7 @@ from cadplants.families.steel.floor import panel
 from cadplants.families.steel.shape import (
     bar,
     base,
-    chance,
+    chance_ as chance,
     few_sides,
     flat,
     floor_family,
