@@ -7,9 +7,9 @@ import numpy as np
 from cadplants.builder.device import families_of
 from cadplants.builder.params import Params, among, between, chance, nested, several, whole
 from cadplants.builder.table import Table
-from cadplants.families.steel.shape import BOTH, CORNERS, Section, Structure, rect, spread
+from cadplants.families.steel.shape import BOTH, CORNERS, Section, Structure, grid, rect, spread
 from cadplants.family import Model
-from cadplants.mesh_ops import Solid, extrude, lattice, merge, moved, sweep
+from cadplants.mesh_ops import Solid, extrude, merge, moved, sweep
 from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle, section_angle, section_channel, section_i
 from cadplants.primitives import along, ball, bar, box, cylinder, hexagon, rod, turned
@@ -147,12 +147,8 @@ class Panel(Params):
         t.add("plate" if self.form == "chequer plate" else "grating", solid, of="clamp")
 
     def _lattice(self, w: float, d: float, thick: float) -> Solid:
-        cells = ((w, int(np.clip(w / 0.034, 4, 30)), 0.003), (d, int(np.clip(d / 0.1, 3, 12)), 0.005))
-        lines = [(np.linspace(0, span, n + 1), bar_) for span, n, bar_ in cells]
-        xs, ys = (np.sort(np.concatenate([one, one[:-1] + bar_, [one[-1] + bar_]])) for one, bar_ in lines)
-        filled = np.zeros((len(xs) - 1, len(ys) - 1), bool)
-        filled[::2], filled[:, ::2] = True, True
-        return moved(lattice(xs, ys, filled, 0.0, thick), at(-w / 2, -d / 2))
+        counts = int(np.clip(w / 0.034, 4, 30)), int(np.clip(d / 0.1, 3, 12))
+        return moved(grid(w + 0.003, d + 0.005, thick, counts, (0.003, 0.005)), at(0.0015, 0.0025))
 
     def _bars(self, w: float, d: float, thick: float) -> Solid:
         xs, ys = (

@@ -14,7 +14,7 @@ from cadplants.builder.params import Params, among, between, chance, several
 from cadplants.builder.table import Table
 from cadplants.families.chance import pick
 from cadplants.family import Family, Part
-from cadplants.mesh_ops import Solid, extrude, merge, moved, tube
+from cadplants.mesh_ops import Solid, extrude, lattice, merge, moved, tube
 from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle
 from cadplants.primitives import box, cylinder, hexagon, rope
@@ -39,6 +39,7 @@ __all__ = [
     "filleted",
     "flat",
     "floor_family",
+    "grid",
     "lug",
     "mirrored",
     "num",
@@ -398,6 +399,18 @@ def drawn(rng: np.random.Generator, style: ModelingStyle, h: float, kinds: Seque
 
 
 # --- and ---
+
+
+def grid(w: float, d: float, thick: float, counts: tuple[int, int], bars: tuple[float, float]) -> Solid:
+    """A lattice of bars about the origin on z = 0, with so many meshes each way [m]."""
+    lows = [np.linspace(0, span - bar_, n + 1) for span, n, bar_ in zip((w, d), counts, bars, strict=True)]
+    xs, ys = (
+        np.sort(np.concatenate([low, low + bar_])) - span / 2
+        for low, span, bar_ in zip(lows, (w, d), bars, strict=True)
+    )
+    filled = np.zeros((len(xs) - 1, len(ys) - 1), bool)
+    filled[::2], filled[:, ::2] = True, True
+    return lattice(xs, ys, filled, 0.0, thick)
 
 
 def lug(style: ModelingStyle, size: float, thick: float) -> Solid:
