@@ -64,7 +64,7 @@ class Deck(Params):
         "m",
         when=lambda p: p.form == "openings",
     )
-    label: str = among(
+    called: str = among(
         ("plate", _SKID), "what a plate is called", when=lambda p: p.form in ("plate", "openings"), otherwise=""
     )
 
@@ -78,8 +78,8 @@ class Deck(Params):
             return 0.03
         n = few_sides(t.style, 0.08)
         holes = tuple(circle(r, n, (s * 0.25 * a, 0.0)) for r, s in zip(self.radii, BOTH, strict=False))
-        own = t.bundled("" if self.label == "plate" else _SKID)
-        own.add(self.label, slab_xy(rect(a, b), 0.0, 0.008, holes))
+        own = t.bundled("" if self.called == "plate" else _SKID)
+        own.add(self.called, slab_xy(rect(a, b), 0.0, 0.008, holes))
         return 0.008
 
 
@@ -275,7 +275,7 @@ class Tray(Structure, name="skid frame/drip tray", weight=1.2):
             spread(own, _SKID, [box((a, 0.06, tall), (0, s * 0.38 * b, tall / 2)) for s in BOTH])
         size = (0.05, b - thick, deep - 0.03)
         spread(t, "beam", [box(size, (x, 0, low + size[2] / 2)) for x in np.linspace(-0.35 * a, 0.35 * a, 3)])
-        if self.deck.label != _SKID:
+        if self.deck.called != _SKID:
             self.deck.build(t.at(0, 0, low + deep - 0.03), a - 0.03, b - 0.03)
         return t.model()
 
