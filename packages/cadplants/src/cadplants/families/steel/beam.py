@@ -6,7 +6,7 @@ import numpy as np
 
 from cadgraph.model.scene import Floats
 from cadplants.builder.device import families_of
-from cadplants.builder.params import among, between, chance, nested, several, whole
+from cadplants.builder.params import among, between, chance, nested, whole
 from cadplants.builder.table import Table
 from cadplants.families.steel.shape import (
     BOTH,
@@ -18,13 +18,16 @@ from cadplants.families.steel.shape import (
     Structure,
     bar,
     bolts,
+    each,
     few_sides,
     mirrored,
+    number,
     section,
     slab_xz,
     slab_yz,
     span_of,
     spread,
+    yes,
 )
 from cadplants.family import Model
 from cadplants.polygon import circle, rounded_rectangle
@@ -184,9 +187,7 @@ class Purlins(Structure, name="beam/purlins", weight=0.8, grain="fitting"):
     purlin: str = among(("Z", "C", "Z"), "section of the purlins")
     props: Props = nested(Props, "what a rafter lies on")
     count: int = whole(2, 4, "purlins")
-    cleats: tuple[bool, ...] = several(
-        lambda rng, _: bool(rng.random() < 0.7), lambda p: p.count, "whether a purlin has cleats"
-    )
+    cleats: tuple[bool, ...] = each(yes(0.7), "whether a purlin has cleats")
 
     def build(self, t: Table) -> Model:
         rafter, purlin = (
@@ -264,9 +265,7 @@ class Pitched(Structure, name="beam/pitched truss", weight=0.7):
     timber: bool = chance(0.5, "of timber, not steel")
     pitch: float = between(0.15, 0.35, "height / length")
     steel: str = among(("L", "SHS", "T"), "section of steel chords", when=lambda p: not p.timber)
-    struts: tuple[bool, ...] = several(
-        lambda rng, _: bool(rng.random() < 0.5), lambda _: 2, "whether a half has a second strut"
-    )
+    struts: tuple[bool, ...] = each(yes(0.5), "whether a half has a second strut", count=2)
     plated: bool = chance(0.7, "with plates at feet and ridge")
     props: Props = nested(Props, _ON)
 
@@ -324,11 +323,8 @@ class Stack(Structure, name="beam/stack", weight=0.8, grain="fitting"):
     columns: int = whole(2, 5, "profiles side by side")
     layers: int = whole(1, 3, "one above the other")
     batten: float = among((0.05, 0.08), "side of a batten", "m")
-    shifts: tuple[float, ...] = several(
-        lambda rng, _: float(rng.uniform(-0.05, 0.05)),
-        lambda p: p.layers * p.columns,
-        "how far a profile lies out of line",
-        "m",
+    shifts: tuple[float, ...] = each(
+        number(-0.05, 0.05), "how far a profile lies out of line", "m", count=lambda p: p.layers * p.columns
     )
 
     def build(self, t: Table) -> Model:

@@ -8,9 +8,8 @@ import numpy as np
 
 from cadgraph.model.scene import Floats
 from cadplants.builder.device import families_of
-from cadplants.builder.params import Params, among, between, chance, given, nested, several, whole
+from cadplants.builder.params import Params, among, between, chance, given, nested, whole
 from cadplants.builder.table import Table
-from cadplants.families.chance import pick
 from cadplants.families.steel.caster import Casters
 from cadplants.families.steel.shape import (
     BOTH,
@@ -21,9 +20,13 @@ from cadplants.families.steel.shape import (
     bar,
     bases,
     bolts,
+    each,
     few_sides,
     flat,
     lug,
+    made,
+    number,
+    one_of,
     pipe,
     ribbon,
     section,
@@ -31,6 +34,7 @@ from cadplants.families.steel.shape import (
     slab_xz,
     span_of,
     spread,
+    yes,
 )
 from cadplants.family import Model
 from cadplants.mesh_ops import Solid, moved
@@ -112,11 +116,11 @@ class _Member(Params):
 def _gussets(count: int) -> tuple[str, ...]:
     """The forms of this many gusset plates."""
     forms = "triangle", "chamfered", "rectangle"
-    return several(lambda rng, _: pick(rng, *forms), lambda _: count, "form of a gusset plate")
+    return each(one_of(*forms), "form of a gusset plate", count=count)
 
 
 def _members(count: int) -> tuple[_Member, ...]:
-    return several(lambda rng, p: _Member.draw(rng, {"form": p.brace}), lambda _: count, "one of the braces")
+    return each(made(_Member, lambda p: {"form": p.brace}), "one of the braces", count=count)
 
 
 class _Braced(Structure, grain="fitting"):
@@ -249,11 +253,9 @@ class Rack(Structure, name="frame/pipe rack", label="beam", weight=1.2, grain="f
     arm: float = between(0.4, 0.8, "length of a cantilever, if it has such", "m")
     armed: bool = among((False, True), "with cantilevers")
     bases: tuple[Base, ...] = bases(4)
-    sides: tuple[_Side, ...] = several(lambda rng, _: _Side.draw(rng), lambda _: 2, "between the frames")
-    pipes: tuple[_Pipe, ...] = several(
-        lambda rng, _: _Pipe.draw(rng),
-        lambda p: p.tiers * len(np.arange(0.3, p.width - 0.2, 0.4)),
-        "place for a pipe, tier by tier",
+    sides: tuple[_Side, ...] = each(made(_Side), "between the frames", count=2)
+    pipes: tuple[_Pipe, ...] = each(
+        made(_Pipe), "place for a pipe, tier by tier", count=lambda p: p.tiers * len(np.arange(0.3, p.width - 0.2, 0.4))
     )
 
     def build(self, t: Table) -> Model:
@@ -297,19 +299,14 @@ class Gantry(Structure, name="frame/gantry", label="beam", grain="fitting"):
     leg_size: float = between(0.06, 0.1, "height of a leg's section", "m")
     leg: str = among(("SHS", "CHS", "U", "L"), "section of the legs")
     tripod: bool = chance(0.3, "three legs that meet")
-    ties: tuple[bool, ...] = several(
-        lambda rng, _: bool(rng.random() < 0.8),
-        lambda _: 3,
-        "whether a tie is between two legs of a tripod",
-        when=lambda p: p.tripod,
+    ties: tuple[bool, ...] = each(
+        yes(0.8), "whether a tie is between two legs of a tripod", count=3, when=lambda p: p.tripod
     )
     wheeled: bool = chance(0.6, "on casters", when=_portal)
     make: str = among(("swivel", "heavy", "braked"), "of the casters", when=_on_casters)
     radius: float = between(0.05, 0.09, "of a caster's wheel", "m", when=_on_casters)
     casters: Casters = nested(lambda s, p: Casters.draw(s, {"makes": (p.make,)}), "casters", when=_on_casters)
-    called: tuple[str, ...] = several(
-        lambda rng, _: pick(rng, "brace", "beam"), lambda _: 2, "what a tie is called", when=_portal
-    )
+    called: tuple[str, ...] = each(one_of("brace", "beam"), "what a tie is called", count=2, when=_portal)
     runway_size: float = between(0.12, 0.24, "height of the runway's section", "m", when=_portal)
     runway: str = among(("I", "IPN", "H"), "section of the runway", when=_portal)
     eyed: bool = chance(0.6, "a lifting eye under the runway", when=_portal)
@@ -374,15 +371,12 @@ class Small(Structure, name="frame/small support", label="beam", weight=1.2, gra
     width: float = between(0.4, 1.4, "of it, or reach of a bracket", "m")
     size: float = between(0.05, 0.12, "height of the section", "m")
     shape: str = among(("SHS", "U", "L", "strut", "H", "CHS"), "section")
-    legs: tuple[_Leg, ...] = several(
-        lambda rng, _: _Leg.draw(rng),
-        lambda p: 1 if p.form == "T-post" else 2,
-        "post",
-        when=_form("T-post", "goalpost"),
+    legs: tuple[_Leg, ...] = each(
+        made(_Leg), "post", count=lambda p: 1 if p.form == "T-post" else 2, when=_form("T-post", "goalpost")
     )
     braced: bool = chance(0.6, "braces under a T", when=_form("T-post"))
-    knees: tuple[str, ...] = several(
-        lambda rng, _: pick(rng, "L", "flat", "SHS"), lambda _: 2, "section of a bracket's brace", when=_form("bracket")
+    knees: tuple[str, ...] = each(
+        one_of("L", "flat", "SHS"), "section of a bracket's brace", count=2, when=_form("bracket")
     )
     over: str = among(("H", "I"), "section of the beam over a trapeze", when=_form("trapeze"))
     called: str = among(("beam", "bracket"), "what a trapeze is called", when=_form("trapeze"))
@@ -419,8 +413,8 @@ class Small(Structure, name="frame/small support", label="beam", weight=1.2, gra
         _x0, _x1, low, high = span_of(over)
         spread(t, "column", [bar((s * w, 0, 0), (s * w, 0, top - high), post) for s in BOTH])
         t.add("beam", bar((-w, 0, top), (w, 0, top), over))
-        ends = h + 2 * y0 - 0.04, top + low
-        rods = [rod(*((s * 0.4 * w, 0, z) for z in ends), 0.006, 8) for s in BOTH]
+        end, x = h + 2 * y0 - 0.04, 0.4 * w
+        rods = [rod((s * x, 0, end), (s * x, 0, top + low), 0.006, 8) for s in BOTH]
         spread(t, "stud", rods, fine=False)
         t.add(self.called, bar((-w / 2, 0, h + y0), (w / 2, 0, h + y0), one))
 
@@ -443,9 +437,7 @@ class _Plate(Params):
     drilled: bool = chance(0.6, "with holes, but for one cut off", when=_flat)
     lies: str = among(("on a wall", "stacked", "ribbed", "plain"), "how it lies", when=_flat)
     count: int = whole(2, 5, "plates of a stack", when=lambda p: p.lies == "stacked")
-    shifts: tuple[float, ...] = several(
-        lambda rng, _: float(rng.uniform(-0.02, 0.02)), lambda p: p.count, "how far one is out of line", "m"
-    )
+    shifts: tuple[float, ...] = each(number(-0.02, 0.02), "how far one is out of line", "m")
 
     def build(self, t: Table) -> None:
         """Puts it down about z."""
@@ -484,7 +476,7 @@ class LoosePlates(Structure, name="plate/loose", weight=1.2, grain="fitting"):
     """Loose plates: blank, drilled, clipped, round, ribbed or bent; lying, stacked or on a wall."""
 
     count: int = whole(3, 6, "plates or stacks")
-    plates: tuple[_Plate, ...] = several(lambda rng, _: _Plate.draw(rng), lambda p: p.count, "plate or stack")
+    plates: tuple[_Plate, ...] = each(made(_Plate), "plate or stack")
 
     def build(self, t: Table) -> Model:
         for k, plate in enumerate(self.plates):

@@ -14,10 +14,10 @@ from cadplants.builder.table import Table, outline
 from cadplants.families.steel.shape import (
     BOTH,
     CORNERS,
-    GROUP,
     Structure,
     bar,
     bolts,
+    each,
     few_sides,
     pipe,
     ribbon,
@@ -26,15 +26,16 @@ from cadplants.families.steel.shape import (
     slab_xz,
     span_of,
     spread,
+    yes,
 )
-from cadplants.family import Model, Part
+from cadplants.family import Model
 from cadplants.mesh_ops import Solid, merge, moved
 from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle
 from cadplants.primitives import along, box, cylinder, hexagon, ring, rod, turned
 from cadplants.transforms import at, spun
 
-__all__ = ["CASTERS", "Casters", "wheel", "wheeled"]
+__all__ = ["CASTERS", "Casters", "wheel"]
 
 Rng = np.random.Generator
 Colored = tuple[Solid, str]
@@ -225,14 +226,6 @@ class Casters(Params):
         return high
 
 
-def wheeled(
-    spots: list[tuple[float, float]], kinds: tuple[str, ...], r: float, style: ModelingStyle, rng: np.random.Generator
-) -> tuple[list[Part], float]:
-    t = Table(style, GROUP)
-    high = Casters.draw(rng, {"makes": kinds, "count": len(spots)}).build(t, spots, r)
-    return t.parts, high
-
-
 class _Dolly(Structure, grain="fitting"):
     """A low dolly or a corner of a frame on plate casters: plate, tube or angle frame, maybe loaded."""
 
@@ -401,22 +394,20 @@ class Skates(Structure, name="caster/skates", weight=0.6, grain="fitting"):
     """Machinery skates: boxes with rows of rollers and a swivel pad, under two beams of a load."""
 
     radius: float = between(0.03, 0.06, "of a roller", "m")
-    rows: int = whole(2, 4, "rollers one after the other")
+    rollers: int = whole(2, 4, "one after the other")
     wide: float = between(3.0, 5.0, "width of a skate / radius of a roller")
     length: float = between(0.8, 1.8, "from skate to skate, along the beams", "m")
     width: float = between(0.5, 1.0, "from beam to beam", "m")
-    joined: tuple[bool, ...] = several(
-        lambda rng, _: bool(rng.random() < 0.5), lambda _: 4, "whether a skate is one mesh"
-    )
+    joined: tuple[bool, ...] = each(yes(0.5), "whether a skate is one mesh", count=4)
     size: float = between(0.1, 0.2, "height of a beam", "m")
     shape: str = among(("H", "RHS", "U"), "section of the beams")
 
     def build(self, t: Table) -> Model:
         r, a, b, wide, high = self.radius, self.length, self.width, self.wide * self.radius, 2.9 * self.radius
-        long, n = (2.2 * self.rows + 0.6) * r, few_sides(t.style, r, 16)
+        long, n = (2.2 * self.rollers + 0.6) * r, few_sides(t.style, r, 16)
         frame = [box((long, 0.3 * r, 1.6 * r), (0, s * wide / 2, 1.6 * r)) for s in BOTH]
         frame.append(box((long, wide + 0.3 * r, 0.3 * r), (0, 0, 2.55 * r)))
-        pad, xs = cylinder(1.4 * r, 2.7 * r, high, n), (np.arange(self.rows) - (self.rows - 1) / 2) * 2.2 * r
+        pad, xs = cylinder(1.4 * r, 2.7 * r, high, n), (np.arange(self.rollers) - (self.rollers - 1) / 2) * 2.2 * r
         rollers = [along("y", cylinder(r, -0.48 * wide, 0.48 * wide, n), x, 0, r) for x in xs]
         for (sx, sy), joined in zip(CORNERS, self.joined, strict=True):
             here = t.at(sx * a / 2, sy * b / 2)

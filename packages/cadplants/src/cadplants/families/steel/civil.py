@@ -8,7 +8,7 @@ import numpy as np
 
 from cadgraph.model.scene import Floats
 from cadplants.builder.device import families_of
-from cadplants.builder.params import among, between, chance, nested, several, whole
+from cadplants.builder.params import among, between, chance, nested, whole
 from cadplants.builder.table import Table
 from cadplants.families.steel.shape import (
     CORNERS,
@@ -17,13 +17,16 @@ from cadplants.families.steel.shape import (
     bar,
     bases,
     bolts,
+    each,
     few_sides,
+    one_of,
     rect,
     ribbon,
     section,
     slab_xy,
     slab_xz,
     spread,
+    yes,
 )
 from cadplants.family import Model
 from cadplants.mesh_ops import Solid, extrude, loft, merge, moved, weld
@@ -170,12 +173,7 @@ class Strip(Structure, name="foundation/strip", grain="fitting"):
     wide: float = between(0.15, 0.5, "width of a strip", "m")
     height: float = between(0.15, 0.5, "of a strip", "m")
     gap: float = between(0.8, 1.6, "from strip to strip", "m")
-    plated: tuple[bool, ...] = several(
-        lambda rng, _: bool(rng.random() < 0.6),
-        lambda p: p.count,
-        "whether a plate is on a sleeper",
-        when=lambda p: p.form == "sleepers",
-    )
+    plated: tuple[bool, ...] = each(yes(0.6), "whether a plate is on a sleeper", when=lambda p: p.form == "sleepers")
     size: float = between(0.1, 0.2, "height of the section on it", "m", when=_carrying)
     shape: str = among(("H", "U", "RHS"), "section on it", when=_carrying)
     called: str = among(("beam", "skid frame"), "what that is called", when=_carrying)
@@ -216,9 +214,7 @@ class Masonry(Structure, name="wall/masonry"):
     block: float = among((0.4, 0.5), "length of a block", "m", when=lambda p: p.big, otherwise=0.25)
     joined: bool = chance(0.8, "the courses are one mesh")
     pilasters: int = whole(0, 3, "before it")
-    labels: tuple[str, ...] = several(
-        lambda rng, _: ("wall", "column")[int(rng.integers(2))], lambda p: p.pilasters, "what a pilaster is called"
-    )
+    labels: tuple[str, ...] = each(one_of("wall", "column"), "what a pilaster is called", count=lambda p: p.pilasters)
     coped: bool = chance(0.6, "with coping")
 
     def build(self, t: Table) -> Model:

@@ -6,17 +6,18 @@ import numpy as np
 
 from cadgraph.model.scene import Floats
 from cadplants.builder.device import families_of
-from cadplants.builder.params import Params, among, between, chance, given, nested, several, whole
+from cadplants.builder.params import Params, among, between, chance, given, nested, whole
 from cadplants.builder.table import Table
-from cadplants.families.chance import pick
 from cadplants.families.steel.caster import Casters
 from cadplants.families.steel.floor import panel
 from cadplants.families.steel.shape import (
     BOTH,
     Structure,
     bar,
+    each,
     few_sides,
     filleted,
+    one_of,
     pipe,
     section,
     span_of,
@@ -180,8 +181,8 @@ class _Portable(Params):
 
     long: float = given(3.0, "length", "m")
     low: float = given(0.0, "where it begins", "m")
-    rungs: tuple[str, ...] = several(
-        lambda rng, _: pick(rng, "round", "square"), lambda p: len(_levels(p.low, p.long)), "how a rung is made"
+    rungs: tuple[str, ...] = each(
+        one_of("round", "square"), "how a rung is made", count=lambda p: len(_levels(p.low, p.long))
     )
     joined: bool = chance(0.45, "in one mesh")
 

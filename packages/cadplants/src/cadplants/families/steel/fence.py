@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from cadplants.builder.device import families_of
-from cadplants.builder.params import Params, among, between, chance, given, nested, several, whole
+from cadplants.builder.params import Params, among, between, chance, given, nested, whole
 from cadplants.builder.table import Table
 from cadplants.families.steel.caster import wheel
 from cadplants.families.steel.shape import (
@@ -18,13 +18,18 @@ from cadplants.families.steel.shape import (
     bar,
     bases,
     bolts,
+    each,
     few_sides,
+    made,
+    number,
+    one_of,
     pipe,
     ribbon,
     section,
     slab_xy,
     slab_xz,
     spread,
+    yes,
 )
 from cadplants.family import Model
 from cadplants.mesh_ops import Solid, extrude, merge, moved
@@ -35,11 +40,6 @@ from cadplants.transforms import at, spun
 __all__ = ["FENCES"]
 
 _JOINED = "in one mesh"
-
-
-def _one_each(share: float, about: str, count: Any = lambda p: p.count, when: Any = None) -> tuple[bool, ...]:
-    """Of several things whether each is so, as often as ``share`` says."""
-    return several(lambda rng, _: bool(rng.random() < share), count, about, when=when)
 
 
 def _whole(t: Table, name: str, solids: Iterable[Solid], joined: bool, of: str) -> None:
@@ -63,9 +63,7 @@ class Posts(Params):
     shape: str = among(lambda p: p.shapes, "section")
     size: float = between(0.045, 0.09, "height of the section", "m")
     foot: str = among(("plates", "concrete", "ground"), "what they stand in")
-    each: tuple[_Post, ...] = several(
-        lambda rng, p: _Post.draw(rng, {"plated": p.foot == "plates"}), lambda p: p.count, "post"
-    )
+    members: tuple[_Post, ...] = each(made(_Post, lambda p: {"plated": p.foot == "plates"}), "post")
 
     @staticmethod
     def of(*shapes: str) -> Posts:
@@ -75,7 +73,7 @@ class Posts(Params):
     def build(self, t: Table, xs: Sequence[float], h: float) -> float:
         """Puts them down at some places along x; half their width [m]."""
         one, own = section(self.shape, self.size, t.style), t.bundled("fence")
-        for x, how in zip(xs, self.each, strict=True):
+        for x, how in zip(xs, self.members, strict=True):
             low = how.base.build(t.at(x), 0.16, 0.16) if how.plated else 0.0
             if self.foot == "concrete":
                 t.at(x).add("foundation", cylinder(0.15, -0.3, 0.0, 10))
@@ -101,7 +99,7 @@ class Palisade(Structure, name="fence/palisade"):
     height: float = between(1.5, 2.6, "of a pale", "m")
     posts: Posts = Posts.of("I", "H", "SHS")
     head: str = among(("point", "notch", "bevel"), "of a pale")
-    joined: tuple[bool, ...] = _one_each(0.65, "whether a bay is one mesh")
+    joined: tuple[bool, ...] = each(yes(0.65), "whether a bay is one mesh")
 
     def build(self, t: Table) -> Model:
         w, h, x = self.width, self.height, 0.065 / 2
@@ -135,7 +133,7 @@ class WeldedMesh(Structure, name="fence/welded mesh", weight=1.2):
     width: float = between(1.2, 2.5, "of a panel", "m")
     height: float = between(0.8, 2.4, "of a panel", "m")
     posts: Posts = Posts.of("SHS", "RHS", "CHS")
-    panels: tuple[_MeshPanel, ...] = several(lambda rng, _: _MeshPanel.draw(rng), lambda p: p.count, "panel")
+    panels: tuple[_MeshPanel, ...] = each(made(_MeshPanel), "panel")
 
     def build(self, t: Table) -> Model:
         w, h, xs = self.width, self.height, [k * self.width for k in range(self.count + 1)]
@@ -169,8 +167,8 @@ class ChainLink(Structure, name="fence/chain link"):
             for c in np.arange(-h, long + h, self.pitch):
                 lo, hi = (max(0.0, c), min(long, c + h)) if way > 0 else (max(0.0, c - h), min(long, c))
                 if hi - lo > 0.05:
-                    ends = [(x, y_, 0.04 + way * (x - c)) for x, y_ in ((lo, y), (hi, y + 0.003 * way))]
-                    strands.append(rod(*ends, 0.002, 4))
+                    a, b = ((x, 0.04 + way * (x - c)) for x in (lo, hi))
+                    strands.append(rod((a[0], y, a[1]), (b[0], y + 0.003 * way, b[1]), 0.002, 4))
         own.add("fence", *strands, *(rod((0, y, z), (long, y, z), 0.003, 5) for z in (0.06, h / 2, h)))
         for x, s in ((0.0, 1), (long, -1)) if self.stayed else ():
             stay = pipe([(x + s * half, 0, 0.75 * h), (x + s * 0.6 * h, 0, 0)], 0.019, t.style)
@@ -199,7 +197,7 @@ class Screen(Structure, name="fence/screen"):
         lambda s, p: Posts.draw(s, {"count": p.count + 1, "shapes": _SCREEN_POSTS.get(p.fill, ("SHS", "H", "U"))}),
         "of the screen",
     )
-    joined: tuple[bool, ...] = _one_each(0.65, "whether a bay is one mesh")
+    joined: tuple[bool, ...] = each(yes(0.65), "whether a bay is one mesh")
 
     def build(self, t: Table) -> Model:
         w = self.width
@@ -236,15 +234,13 @@ class Guard(Structure, name="fence/guard", weight=1.2, grain="fitting"):
     count: int = whole(1, 4, "panels")
     height: float = between(1.2, 2.2, "of a panel's top", "m")
     low: float = between(0.1, 0.2, "height of a panel's underside", "m")
-    widths: tuple[float, ...] = several(
-        lambda rng, _: float(rng.uniform(0.5, 1.5)), lambda p: p.count, "of a panel", "m"
-    )
+    widths: tuple[float, ...] = each(number(0.5, 1.5), "of a panel", "m")
     posts: Posts = Posts.of("SHS", "RHS")
     tube: str = among(("SHS", "L", "CHS"), "section of a panel's frame")
     fill: str = among(("mesh", "mesh", "sheet", "clear"), "of a panel")
     doored: bool = chance(0.5, "one of the panels is a door")
     door: int = among(lambda p: range(p.count), "which one, from 0", when=lambda p: p.doored, otherwise=-1)
-    joined: tuple[bool, ...] = _one_each(0.85, "whether a panel is one mesh")
+    joined: tuple[bool, ...] = each(yes(0.85), "whether a panel is one mesh")
 
     def build(self, t: Table) -> Model:
         h, low, tube = self.height, self.low, section(self.tube, 0.025, t.style)
@@ -273,11 +269,8 @@ class _Hurdle(Params):
 
     site: bool = given(False, "whether it stands in feet")
     joined: bool = chance(0.9, _JOINED)
-    feet: tuple[str, ...] = several(
-        lambda rng, _: ("base plate", "foundation")[int(rng.integers(2))],
-        lambda _: 2,
-        "what a foot is called",
-        when=lambda p: p.site,
+    feet: tuple[str, ...] = each(
+        one_of("base plate", "foundation"), "what a foot is called", count=2, when=lambda p: p.site
     )
 
 
@@ -289,9 +282,7 @@ class Movable(Structure, name="fence/movable", weight=0.8, grain="fitting"):
     width: float = between(lambda p: 2.0 if p.site else 1.5, lambda p: 3.0 if p.site else 2.3, "of a barrier", "m")
     height: float = between(1.8, 2.1, "of a panel", "m", when=lambda p: p.site, otherwise=1.1)
     radius: float = between(0.014, 0.021, "of its tubes", "m")
-    each: tuple[_Hurdle, ...] = several(
-        lambda rng, p: _Hurdle.draw(rng, {"site": p.site}), lambda p: p.count, "barrier"
-    )
+    barriers: tuple[_Hurdle, ...] = each(made(_Hurdle, lambda p: {"site": p.site}), "barrier")
 
     def build(self, t: Table) -> Model:
         site, w, h, r = self.site, self.width, self.height, self.radius
@@ -305,7 +296,7 @@ class Movable(Structure, name="fence/movable", weight=0.8, grain="fitting"):
             solids += [rod((x, 0, low), (x, 0, h), 0.006, 6) for x in np.arange(0.12, w - 0.05, 0.12)]
             bow = ((-0.25, 0.01), (-0.2, 0.1), (0, low), (0.2, 0.1), (0.25, 0.01))
             solids += [pipe([(x, y, z) for y, z in bow], 0.012, t.style) for x in (0.3, w - 0.3)]
-        for k, how in enumerate(self.each):
+        for k, how in enumerate(self.barriers):
             here = t.at(k * (w + 0.06))
             _whole(here, "fence", solids, how.joined, "fence")
             for x, name in zip((0, w), how.feet, strict=False):
@@ -361,7 +352,7 @@ class Swing(Structure, name="gate/swing", weight=1.3, grain="fitting"):
     height: float = between(0.9, 2.2, "of a leaf's top", "m")
     low: float = between(0.04, 0.12, "height of a leaf's underside", "m")
     posts: Posts = nested(lambda s, _: Posts.draw(s, {"shapes": ("SHS", "SHS", "H", "CHS")}), "of the gate")
-    leaves: tuple[_Swung, ...] = several(lambda rng, _: _Swung.draw(rng), lambda p: p.count, "leaf")
+    leaves: tuple[_Swung, ...] = each(made(_Swung), "leaf")
 
     def build(self, t: Table) -> Model:
         w, h, low = self.width, self.height, self.low

@@ -8,7 +8,7 @@ import numpy as np
 
 from cadgraph.model.scene import Floats
 from cadplants.builder.device import families_of
-from cadplants.builder.params import among, between, chance, nested, several, whole
+from cadplants.builder.params import among, between, chance, nested, whole
 from cadplants.builder.table import Table
 from cadplants.families.steel.caster import Casters
 from cadplants.families.steel.shape import (
@@ -18,8 +18,10 @@ from cadplants.families.steel.shape import (
     Structure,
     bar,
     bases,
+    each,
     few_sides,
     grid,
+    number,
     pipe,
     rect,
     ribbon,
@@ -29,6 +31,7 @@ from cadplants.families.steel.shape import (
     slab_yz,
     span_of,
     spread,
+    yes,
 )
 from cadplants.family import Model
 from cadplants.mesh_ops import Solid, extrude, merge, moved
@@ -123,12 +126,8 @@ class Panels(Structure, name="grating/panels", weight=1.5, grain="fitting"):
     thick: float = among((0.025, 0.03, 0.04), "thickness of a panel", "m")
     stacked: bool = chance(0.3, "a stack on battens")
     count: int = among(lambda p: (2, 3, 4) if p.stacked else (1, 2, 3), "panels")
-    turns: tuple[float, ...] = several(
-        lambda rng, _: float(rng.uniform(-0.03, 0.03)),
-        lambda p: p.count,
-        "how far a panel of the stack is turned",
-        "rad",
-        when=lambda p: p.stacked,
+    turns: tuple[float, ...] = each(
+        number(-0.03, 0.03), "how far a panel of the stack is turned", "rad", when=lambda p: p.stacked
     )
     size: float = between(0.06, 0.12, "height of a bearer's section", "m", when=lambda p: not p.stacked)
     bearer: str = among(("L", "U", "SHS", "I", "T"), "section of the bearers", when=lambda p: not p.stacked)
@@ -269,7 +268,7 @@ class SolidPlatform(Structure, name="platform/solid", weight=1.3):
     height: float = between(0.15, 2.2, "of the floor", "m")
     form: str = among(("folded", "ribbed", "slab"), "how it is made")
     deep: float = between(0.06, 0.15, "height of its edge", "m")
-    of: str = among(("clamp", "steel", "concrete"), "kind of material")
+    material: str = among(("clamp", "steel", "concrete"), "kind of material")
     foot: str = among(("blocks", "legs", "brackets"), "what it stands on; blocks where it is low")
     leg: str = among(("SHS", "CHS", "L", "U"), "section of the legs", when=_legged)
     bases: tuple[Base, ...] = bases(4, when=_legged)
@@ -285,7 +284,7 @@ class SolidPlatform(Structure, name="platform/solid", weight=1.3):
             size = (0.008, d - 0.012, 0.7 * deep)
             solids += [box(size, (x, 0, h - 0.008 - 0.35 * deep)) for x in np.linspace(-0.3 * w, 0.3 * w, 4)]
         solids = [box((w, d, deep), (0, 0, h - deep / 2))] if self.form == "slab" else solids
-        t.bundled("platform").add("platform", *solids, of=self.of)
+        t.bundled("platform").add("platform", *solids, of=self.material)
         if self.foot == "blocks" or low < 0.15:
             spread(t, "foundation", [box((0.2, d, low), (s * 0.35 * w, 0, low / 2)) for s in BOTH])
         elif self.foot == "legs":
@@ -365,9 +364,7 @@ class Scaffold(Structure, name="platform/scaffold", weight=0.8, grain="fitting")
     radius: float = between(0.06, 0.09, "of a caster's wheel", "m")
     wheeled: bool = chance(0.7, "on casters")
     casters: Casters = nested(Casters.of("stem"), "casters", when=lambda p: p.wheeled)
-    joined: tuple[bool, ...] = several(
-        lambda rng, _: bool(rng.random() < 0.5), lambda _: 2, "whether the rungs of a frame are one mesh"
-    )
+    joined: tuple[bool, ...] = each(yes(0.5), "whether the rungs of a frame are one mesh", count=2)
 
     def build(self, t: Table) -> Model:
         a, b, h, low, style = self.length, self.width, self.height, 0.012, t.style

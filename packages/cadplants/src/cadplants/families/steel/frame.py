@@ -5,9 +5,21 @@ from __future__ import annotations
 import numpy as np
 
 from cadplants.builder.device import families_of
-from cadplants.builder.params import Params, among, between, chance, nested, several, whole
+from cadplants.builder.params import Params, among, between, chance, nested, whole
 from cadplants.builder.table import Table
-from cadplants.families.steel.shape import BOTH, CORNERS, Section, Structure, grid, rect, spread
+from cadplants.families.steel.shape import (
+    BOTH,
+    CORNERS,
+    Section,
+    Structure,
+    each,
+    grid,
+    made,
+    number,
+    rect,
+    spread,
+    yes,
+)
 from cadplants.family import Model
 from cadplants.mesh_ops import Solid, extrude, merge, moved, sweep
 from cadplants.modeling_style import ModelingStyle
@@ -58,7 +70,7 @@ class Bay(Structure, name="frame/bay", weight=2, grain="fitting"):
     column: Profile = nested(Profile, "of the columns")
     beam: Profile = nested(Profile, "of the beams")
     thin: Profile = nested(Profile, "of purlins and braces")
-    feet: tuple[_Foot, ...] = several(lambda rng, _: _Foot.draw(rng), lambda _: 4, "what is under the columns")
+    feet: tuple[_Foot, ...] = each(made(_Foot), "what is under the columns", count=4)
     purlins: int = whole(2, 4, "on the beams")
     braces: str = among(("crossed", "single", "knee"), "how it is braced")
     floored: bool = chance(0.4, "a floor on it")
@@ -277,9 +289,7 @@ class Platform(Structure, name="platform/bay", weight=2.5):
     edge: Profile = nested(Profile, "of the beams")
     count: int = whole(1, 3, "panels, if it has such")
     plain: bool = chance(0.3, "its floor is one plate")
-    panels: tuple[Panel, ...] = several(
-        lambda rng, _: Panel.draw(rng), lambda p: p.count, "of the floor", when=lambda p: not p.plain
-    )
+    panels: tuple[Panel, ...] = each(made(Panel), "of the floor", when=lambda p: not p.plain)
     back: Rails = nested(Rails, "railing along x", when=lambda p: p.height > 0.5)
     sided: bool = chance(0.6, "a railing along y", when=lambda p: p.height > 0.5)
     side: Rails = nested(Rails, "that railing", when=lambda p: p.sided)
@@ -326,9 +336,7 @@ class Fence(Structure, name="fence/panel", weight=1.5, grain="fitting"):
 
     length: float = between(1.5, 2.6, "of the panel", "m")
     height: float = between(1.0, 2.2, "of the panel", "m")
-    rounds: tuple[bool, ...] = several(
-        lambda rng, _: bool(rng.random() < 0.5), lambda _: 2, "whether a post is round, not flat"
-    )
+    rounds: tuple[bool, ...] = each(yes(0.5), "whether a post is round, not flat", count=2)
     fill: str = among(("wires", "planks", "sheet"), "of the panel")
     gated: bool = chance(0.6, "a gate leaf beside it")
     strut: bool = chance(0.5, "one diagonal in the leaf, not bars", when=lambda p: p.gated)
@@ -408,13 +416,7 @@ class Wheeled(Structure, name="skid frame/wheeled", weight=3, grain="fitting"):
     ties: int = whole(3, 5, "cross members")
     decked: bool = chance(0.5, "a plate on it")
     loose: bool = chance(0.5, "that plate is a part of its own kind, not of the frame", when=lambda p: p.decked)
-    turns: tuple[float, ...] = several(
-        lambda rng, _: float(rng.uniform(0, 6)),
-        lambda _: 4,
-        "which way a caster points",
-        "rad",
-        when=lambda p: p.wheeled,
-    )
+    turns: tuple[float, ...] = each(number(0, 6), "which way a caster points", "rad", count=4, when=lambda p: p.wheeled)
 
     def build(self, t: Table) -> Model:
         w, d, r, own = self.length, self.width, self.radius, t.bundled("skid frame")
@@ -472,7 +474,7 @@ class Stock(Structure, name="profile/stock", weight=1.5, grain="fitting"):
     """Sections of any length lying and standing, plates with holes and without."""
 
     count: int = whole(3, 6, "sections")
-    pieces: tuple[_Piece, ...] = several(lambda rng, _: _Piece.draw(rng), lambda p: p.count, "section")
+    pieces: tuple[_Piece, ...] = each(made(_Piece), "section")
 
     def build(self, t: Table) -> Model:
         for k, one in enumerate(self.pieces):

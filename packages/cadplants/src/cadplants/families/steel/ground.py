@@ -8,10 +8,9 @@ import numpy as np
 
 from cadgraph.model.scene import Floats
 from cadplants.builder.device import families_of
-from cadplants.builder.params import among, between, chance, several, whole
+from cadplants.builder.params import among, between, chance, whole
 from cadplants.builder.table import Table
-from cadplants.families.chance import pick
-from cadplants.families.steel.shape import BOTH, Structure, few_sides, rect, slab_xy, slab_xz, spread
+from cadplants.families.steel.shape import BOTH, Structure, each, few_sides, one_of, rect, slab_xy, slab_xz, spread
 from cadplants.family import Model
 from cadplants.mesh_ops import Solid
 from cadplants.polygon import circle
@@ -31,10 +30,10 @@ class Slabs(Structure, name="ground/slabs", weight=1.3, grain="fitting"):
     width: float = between(1.2, 4.0, "along y", "m")
     thick: float = among((0.02, 0.1, 0.2, 0.4), "thickness of a slab", "m")
     form: str = among(("fields", "paving", "gutter", "ramp", "holes"), "what it is")
-    rows: int = whole(1, 3, "fields along x", when=_form("fields"))
-    columns: int = whole(1, 3, "fields along y", when=_form("fields"))
-    materials: tuple[str, ...] = several(
-        lambda rng, _: pick(rng, "ground", "concrete"), lambda p: p.rows * p.columns, "kind of material of a field"
+    fields_along: int = whole(1, 3, "fields along x", when=_form("fields"))
+    fields_across: int = whole(1, 3, "fields along y", when=_form("fields"))
+    materials: tuple[str, ...] = each(
+        one_of("ground", "concrete"), "kind of material of a field", count=lambda p: p.fields_along * p.fields_across
     )
     holed: bool = chance(0.6, "with holes", when=_form("holes"))
     footed: bool = chance(0.4, "a foundation on it, if of fields or with a ramp")
@@ -45,7 +44,7 @@ class Slabs(Structure, name="ground/slabs", weight=1.3, grain="fitting"):
     def build(self, t: Table) -> Model:
         a, b, thick = self.length, self.width, self.thick
         if self.form == "fields":
-            m, n = self.rows, self.columns
+            m, n = self.fields_along, self.fields_across
             for k, of in enumerate(self.materials):
                 middle = (k // n + 0.5) * a / m, (k % n + 0.5) * b / n, -thick / 2
                 t.add("ground", box((a / m - 0.012, b / n - 0.012, thick), middle), of=of)
@@ -87,10 +86,10 @@ class Relief(Structure, name="ground/relief", grain="fitting"):
     post: bool = chance(0.5, "a post on the round pad", when=_form("pad"))
     points: int = whole(5, 11, "points of the patch each way", when=_form("patch"))
     rough: float = between(0.02, 0.12, "standard deviation of the patch's heights", "m", when=_form("patch"))
-    heights: tuple[float, ...] = several(
+    heights: tuple[float, ...] = each(
         lambda rng, _: float(rng.standard_normal()),
-        lambda p: p.points**2,
         "of a point / the standard deviation",
+        count=lambda p: p.points**2,
         when=_form("patch"),
     )
 

@@ -6,9 +6,8 @@ import numpy as np
 
 from cadgraph.model.scene import Floats
 from cadplants.builder.device import families_of
-from cadplants.builder.params import Params, among, between, chance, nested, several, whole
+from cadplants.builder.params import Params, among, between, chance, nested, whole
 from cadplants.builder.table import Table, outline
-from cadplants.families.chance import pick
 from cadplants.families.steel.shape import (
     BOTH,
     Base,
@@ -16,7 +15,10 @@ from cadplants.families.steel.shape import (
     bar,
     bases,
     bolts,
+    each,
     few_sides,
+    made,
+    one_of,
     pipe,
     ribbon,
     section,
@@ -102,17 +104,12 @@ class SideFixed(Structure, name="railing/side fixed"):
     edge_size: float = between(0.14, 0.24, "height of the edge beam's section", "m")
     edge: str = among(("U", "RHS", "U", "H"), "section of the edge beam")
     lift: float = between(0.0, 1.0, "height of the edge beam over 0.15 m", "m")
-    feet: tuple[str, ...] = several(
-        lambda rng, _: pick(rng, "column", "foundation"), lambda _: 2, "what the edge beam stands on"
-    )
+    feet: tuple[str, ...] = each(one_of("column", "foundation"), "what the edge beam stands on", count=2)
     post: str = among(("flat", "L", "SHS", "CHS", "U"), "section of the posts")
     rail: str = among(("CHS", "SHS", "L", "flat"), "section of the rails")
     rails: int = whole(3, 4, "levels with the edge beam's")
-    behind: tuple[float, ...] = several(
-        lambda rng, _: pick(rng, 0.03, 0.0),
-        lambda p: p.rails - 2,
-        "how far a lower rail is behind the posts' axis",
-        "m",
+    behind: tuple[float, ...] = each(
+        one_of(0.03, 0.0), "how far a lower rail is behind the posts' axis", "m", count=lambda p: p.rails - 2
     )
     kicked: bool = chance(0.6, "a toe plate")
 
@@ -370,9 +367,7 @@ class Barrier(Structure, name="railing/barrier", grain="fitting"):
     height: float = between(
         lambda p: 0.35 if p.form == "hoops" else 0.6, lambda p: 1.0 if p.form == "hoops" else 0.9, "of it", "m"
     )
-    hoops: tuple[_Hoop, ...] = several(
-        lambda rng, _: _Hoop.draw(rng), lambda p: p.count, "hoop", when=lambda p: p.form == "hoops"
-    )
+    hoops: tuple[_Hoop, ...] = each(made(_Hoop), "hoop", when=lambda p: p.form == "hoops")
     size: float = between(0.08, 0.14, "height of a post's section", "m", when=lambda p: p.form != "hoops")
     post: str = among(("U", "H", "SHS", "C"), "section of the posts", when=lambda p: p.form != "hoops")
     bases: tuple[Base, ...] = bases(lambda p: p.count + 1, when=lambda p: p.form != "hoops")
@@ -482,7 +477,7 @@ class Stands(Structure, name="post/stand", weight=1.2, grain="fitting"):
     """Lone posts of any section on plates, in sockets or on the side of a plinth, with caps, arms or a small panel."""
 
     count: int = whole(1, 3, "posts")
-    posts: tuple[_Stand, ...] = several(lambda rng, _: _Stand.draw(rng), lambda p: p.count, "post")
+    posts: tuple[_Stand, ...] = each(made(_Stand), "post")
 
     def build(self, t: Table) -> Model:
         for k, one in enumerate(self.posts):

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
-from typing import Any
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import Any, TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -13,7 +13,6 @@ from cadplants.builder.device import Device
 from cadplants.builder.params import Params, among, between, chance, several
 from cadplants.builder.table import Table
 from cadplants.families.chance import pick
-from cadplants.family import Family, Part
 from cadplants.mesh_ops import Solid, extrude, lattice, merge, moved, tube
 from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle
@@ -30,22 +29,19 @@ __all__ = [
     "Section",
     "Structure",
     "bar",
-    "base",
     "bases",
-    "bolted",
     "bolts",
-    "drawn",
+    "each",
     "few_sides",
     "filleted",
     "flat",
-    "floor_family",
     "grid",
     "lug",
+    "made",
     "mirrored",
-    "num",
-    "piece",
+    "number",
+    "one_of",
     "pipe",
-    "propped",
     "rect",
     "ribbon",
     "section",
@@ -54,18 +50,15 @@ __all__ = [
     "slab_yz",
     "span_of",
     "spread",
+    "yes",
 ]
 
 GROUP = "Structural element"
+Rng = np.random.Generator
+Count = Callable[[Any], int]
+T = TypeVar("T")
+P = TypeVar("P", bound=Params)
 Section = tuple[Floats, tuple[Floats, ...]]
-_OTHER = {
-    **dict.fromkeys(
-        ("bolt", "nut", "washer", "stud", "screw", "u-bolt", "clamp", "pipe hanger", "bracket", "gusset plate"),
-        "Connection assembly",
-    ),
-    **dict.fromkeys(("lifting lug", "tank", "shell", "saddle"), "Tank"),
-    **dict.fromkeys(("sign", "lamp", "junction box", "control panel"), "Electrical and safety"),
-}
 BOTH = (-1, 1)
 CORNERS = ((-1, -1), (-1, 1), (1, -1), (1, 1))
 ROLLED = ("H", "I", "IPN", "U", "RHS", "SHS", "CHS")
@@ -76,6 +69,38 @@ class Structure(Device, place="floor", group=GROUP, sizes=(15,), grain="structur
 
     def __init_subclass__(cls, **said: Any) -> None:
         super().__init_subclass__(**{"label": said.get("name", "").split("/")[0], **said})
+
+
+def yes(share: float) -> Callable[[Rng, Any], bool]:
+    """Draws whether one of several things is so, that is so this often."""
+    return lambda rng, _: bool(rng.random() < share)
+
+
+def number(low: float, high: float) -> Callable[[Rng, Any], float]:
+    """Draws a number of one of several things."""
+    return lambda rng, _: float(rng.uniform(low, high))
+
+
+def one_of(*items: T) -> Callable[[Rng, Any], T]:
+    """Draws which of some things one of several is."""
+    return lambda rng, _: pick(rng, *items)
+
+
+def made(piece: type[P], fixed: Callable[[Any], Mapping[str, Any]] = lambda _: {}) -> Callable[[Rng, Any], P]:
+    """Draws one of several pieces, with what the fields before set of it."""
+    return lambda rng, p: piece.draw(rng, fixed(p))
+
+
+def each(
+    draw: Callable[[Rng, Any], T],
+    about: str,
+    unit: str = "",
+    *,
+    count: int | Count = lambda p: int(p.count),
+    when: Callable[[Any], bool] | None = None,
+) -> tuple[T, ...]:
+    """What is drawn for each of several things, of which there are as many as the field ``count`` says."""
+    return several(draw, count if callable(count) else lambda _: count, about, unit, when=when)
 
 
 def spread(t: Table, name: str, solids: Iterable[Solid], of: str = "", joined: bool = False, **more: Any) -> None:
@@ -295,10 +320,9 @@ class Base(Params):
         return self.thick
 
 
-def bases(count: int | Callable[[Any], int], when: Callable[[Any], bool] | None = None) -> tuple[Base, ...]:
+def bases(count: int | Count, when: Callable[[Any], bool] | None = None) -> tuple[Base, ...]:
     """Base plates of this many columns."""
-    number = count if callable(count) else lambda _: count
-    return several(lambda rng, _: Base.draw(rng), number, "base plates", when=when)
+    return each(made(Base), "base plates", count=count, when=when)
 
 
 class Props(Params):
@@ -314,11 +338,8 @@ class Props(Params):
         when=lambda p: p.form != "battens",
     )
     leg: str = among(("L", "SHS", "CHS"), "section of a trestle's legs", when=lambda p: p.form == "trestles")
-    heads: tuple[str, ...] = several(
-        lambda rng, _: pick(rng, "SHS", "U", "H"),
-        lambda _: 2,
-        "sections of the trestles' heads",
-        when=lambda p: p.form == "trestles",
+    heads: tuple[str, ...] = each(
+        one_of("SHS", "U", "H"), "sections of the trestles' heads", count=2, when=lambda p: p.form == "trestles"
     )
     shaft: str = among(ROLLED, "section of the columns", when=lambda p: p.form == "columns")
     feet: tuple[Base, ...] = bases(2, when=lambda p: p.form == "columns")
@@ -350,55 +371,6 @@ class Props(Params):
                 low = self.feet[k].build(t.at(x), size + 0.12, size + 0.12)
                 t.add("column", bar((x, 0, low), (x, 0, h - 0.01), shaft))
                 t.add("plate", box((size + 0.04, max(size, wide) + 0.04, 0.01), (x, 0, h - 0.005)))
-
-
-# --- what is left of before ---
-
-
-def bolted(
-    poses: Sequence[Floats], d: float, style: ModelingStyle, grip: float = 0.02, through: bool = False
-) -> list[Part]:
-    t = Table(style, GROUP)
-    bolts(t, poses, d, grip, through)
-    return t.parts
-
-
-def base(
-    x: float, y: float, size: tuple[float, float], style: ModelingStyle, rng: np.random.Generator, z: float = 0.0
-) -> tuple[list[Part], float]:
-    t = Table(style, GROUP)
-    top = Base.draw(rng).build(t.at(x, y, z), *size)
-    return t.parts, z + top
-
-
-def propped(length: float, wide: float, style: ModelingStyle, rng: np.random.Generator) -> tuple[list[Part], float]:
-    t, one = Table(style, GROUP), Props.draw(rng)
-    one.build(t, length, wide)
-    return t.parts, one.top
-
-
-def num(rng: np.random.Generator, low: float, high: float) -> float:
-    return float(rng.uniform(low, high))
-
-
-def chance_(rng: np.random.Generator, share: float) -> bool:
-    return bool(rng.random() < share)
-
-
-def piece(solid: Solid, name: str, color: str = "steel", bundle: str = "", fine: bool = False) -> Part:
-    return Part(solid, name, color, bundle, _OTHER.get(name, ""), fine)
-
-
-def floor_family(name: str, build: object, weight: float = 1.0, grain: str = "structure", whole: str = "") -> Family:
-    label = whole or name.split("/")[0]
-    return Family(name, "floor", GROUP, label, build, (15,), grain, weight)  # type: ignore[arg-type]
-
-
-def drawn(rng: np.random.Generator, style: ModelingStyle, h: float, kinds: Sequence[str] = ROLLED) -> Section:
-    return section(kinds[int(rng.integers(len(kinds)))], h, style)
-
-
-# --- and ---
 
 
 def grid(w: float, d: float, thick: float, counts: tuple[int, int], bars: tuple[float, float]) -> Solid:

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from cadplants.builder.device import families_of
-from cadplants.builder.params import Params, Source, among, between, chance, given, nested, several, whole
+from cadplants.builder.params import Params, Source, among, between, chance, given, nested, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.steel.shape import (
     BOTH,
@@ -16,9 +16,11 @@ from cadplants.families.steel.shape import (
     Structure,
     bar,
     bolts,
+    each,
     few_sides,
     grid,
     lug,
+    number,
     pipe,
     rect,
     ribbon,
@@ -57,12 +59,8 @@ class Deck(Params):
     """What lies on a frame: nothing, a plate, a plate with openings, a grating, a chequered plate."""
 
     form: str = among(("bare", "plate", "openings", "grating", "plate"), "what it is")
-    radii: tuple[float, ...] = several(
-        lambda rng, _: float(rng.uniform(0.03, 0.08)),
-        lambda _: 2,
-        "of an opening",
-        "m",
-        when=lambda p: p.form == "openings",
+    radii: tuple[float, ...] = each(
+        number(0.03, 0.08), "of an opening", "m", count=2, when=lambda p: p.form == "openings"
     )
     called: str = among(
         ("plate", _SKID), "what a plate is called", when=lambda p: p.form in ("plate", "openings"), otherwise=""
@@ -242,8 +240,8 @@ class Cage(Structure, name="skid frame/cage", weight=1.3, grain="fitting"):
             t.add(_SKID, bar((x, ys[0] + half, low), (x, ys[1] - half, low), one))
         if self.braced:
             thin = section(self.brace, 0.04, t.style)
-            ends = (xs[0] + half, low + half), (xs[1] - half, h - low - half)
-            spread(t, "brace", [bar(*((x, y, z) for x, z in ends), thin) for y in ys])
+            x, z = a / 2 - half, low + half
+            spread(t, "brace", [bar((-x, y, z), (x, y, h - z), thin) for y in ys])
         if self.floored:
             plate = box((a - self.size, b - self.size, 0.006), (0, 0, low + half - 0.004))
             t.add("plate", plate, of="clamp")

@@ -7,9 +7,8 @@ from typing import Any
 import numpy as np
 
 from cadplants.builder.device import families_of
-from cadplants.builder.params import among, between, chance, nested, several, whole
+from cadplants.builder.params import among, between, chance, nested, whole
 from cadplants.builder.table import Table
-from cadplants.families.chance import pick
 from cadplants.families.steel.floor import panel
 from cadplants.families.steel.shape import (
     BOTH,
@@ -17,8 +16,10 @@ from cadplants.families.steel.shape import (
     Base,
     Structure,
     bar,
+    each,
     few_sides,
     flat,
+    one_of,
     pipe,
     ribbon,
     section,
@@ -26,6 +27,7 @@ from cadplants.families.steel.shape import (
     slab_xz,
     span_of,
     spread,
+    yes,
 )
 from cadplants.family import Model
 from cadplants.primitives import box, cylinder, dome, ring
@@ -43,9 +45,7 @@ class Spiral(Structure, name="stairs/spiral", grain="fitting"):
     core: float = between(0.05, 0.09, "radius of the column", "m")
     base: Base = nested(Base, "base plate")
     collared: bool = chance(0.5, "the treads have collars round the column")
-    metals: tuple[str, ...] = several(
-        lambda rng, _: pick(rng, "steel", "steel", "clamp"), lambda p: p.count, "kind of material of a tread"
-    )
+    metals: tuple[str, ...] = each(one_of("steel", "steel", "clamp"), "kind of material of a tread")
 
     def build(self, t: Table) -> Model:
         r, rise, core, step = self.radius, self.rise, self.core, 2 * np.pi / self.per_turn
@@ -126,9 +126,7 @@ class SteelFlight(Structure, name="stairs/strings and spine", weight=1.5, grain=
         when=lambda p: p.string != "toothed",
     )
     tread: str = among(("bar", "fold", "sheet", "perforated", "planks"), "how the treads are made")
-    nosed: tuple[bool, ...] = several(
-        lambda rng, _: bool(rng.random() < 0.5), lambda p: p.count, "whether a tread has a nosing"
-    )
+    nosed: tuple[bool, ...] = each(yes(0.5), "whether a tread has a nosing")
     railed: bool = chance(0.7, "with a railing")
     both: bool = chance(0.6, "a railing on both sides, not on one", when=lambda p: p.railed)
 
