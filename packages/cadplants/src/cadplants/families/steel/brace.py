@@ -26,6 +26,7 @@ from cadplants.families.steel.shape import (
     lug,
     made,
     number,
+    of_form,
     one_of,
     pipe,
     ribbon,
@@ -76,9 +77,9 @@ class _Member(Params):
     """One of the braces."""
 
     form: str = given("tube", "rod, angles, tube, flat or angle")
-    radius: float = between(0.008, 0.014, "of a rod", "m", when=lambda p: p.form == "rod")
-    leg: float = between(0.05, 0.07, "of an angle of two", "m", when=lambda p: p.form == "angles")
-    joined: bool = chance(0.4, "both angles are one mesh", when=lambda p: p.form == "angles")
+    radius: float = between(0.008, 0.014, "of a rod", "m", when=of_form("rod"))
+    leg: float = between(0.05, 0.07, "of an angle of two", "m", when=of_form("angles"))
+    joined: bool = chance(0.4, "both angles are one mesh", when=of_form("angles"))
 
     def build(self, t: Table, line: Line, one: Section, way: int, spread_by: float, knee: bool) -> None:
         """Puts it down along a line, towards one side or the other; crossed ones are spread [m]."""
@@ -359,10 +360,6 @@ class _Leg(Params):
     called: str = among(("column", "post"), "what it is called")
 
 
-def _form(*forms: str) -> Any:
-    return lambda p: p.form in forms
-
-
 class Small(Structure, name="frame/small support", label="beam", weight=1.2, grain="fitting"):
     """Small supports: T-posts, goalposts, wall brackets with braces, trapeze of strut channel on threaded rods."""
 
@@ -372,14 +369,14 @@ class Small(Structure, name="frame/small support", label="beam", weight=1.2, gra
     size: float = between(0.05, 0.12, "height of the section", "m")
     shape: str = among(("SHS", "U", "L", "strut", "H", "CHS"), "section")
     legs: tuple[_Leg, ...] = each(
-        made(_Leg), "post", count=lambda p: 1 if p.form == "T-post" else 2, when=_form("T-post", "goalpost")
+        made(_Leg), "post", count=lambda p: 1 if p.form == "T-post" else 2, when=of_form("T-post", "goalpost")
     )
-    braced: bool = chance(0.6, "braces under a T", when=_form("T-post"))
+    braced: bool = chance(0.6, "braces under a T", when=of_form("T-post"))
     knees: tuple[str, ...] = each(
-        one_of("L", "flat", "SHS"), "section of a bracket's brace", count=2, when=_form("bracket")
+        one_of("L", "flat", "SHS"), "section of a bracket's brace", count=2, when=of_form("bracket")
     )
-    over: str = among(("H", "I"), "section of the beam over a trapeze", when=_form("trapeze"))
-    called: str = among(("beam", "bracket"), "what a trapeze is called", when=_form("trapeze"))
+    over: str = among(("H", "I"), "section of the beam over a trapeze", when=of_form("trapeze"))
+    called: str = among(("beam", "bracket"), "what a trapeze is called", when=of_form("trapeze"))
 
     def build(self, t: Table) -> Model:
         one: Section = section(self.shape, self.size, t.style)
@@ -430,7 +427,7 @@ class _Plate(Params):
     width: float = between(0.08, 0.6, "along y", "m")
     thick: float = among((0.004, 0.008, 0.012, 0.02), "thickness", "m")
     form: str = among(("plain", "clipped", "round", "cut off", "bent", "channel"), "how it is made")
-    rounded: bool = among((False, True), "its corners are round", when=lambda p: p.form == "plain")
+    rounded: bool = among((False, True), "its corners are round", when=of_form("plain"))
     called: str = among(
         ("plate", "plate", "bracket"), "what it is called", when=lambda p: not _flat(p), otherwise="plate"
     )

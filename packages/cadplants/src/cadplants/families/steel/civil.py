@@ -19,6 +19,7 @@ from cadplants.families.steel.shape import (
     bolts,
     each,
     few_sides,
+    of_form,
     one_of,
     rect,
     ribbon,
@@ -101,7 +102,7 @@ class Footing(Structure, name="foundation/footing", weight=1.2, grain="fitting")
     pedestal: float = between(0.3, 0.5, "side of the pedestal", "m")
     deep: float = between(0.25, 0.5, "height of the pad", "m")
     tall: float = between(0.2, 0.7, "height of the pedestal", "m")
-    column: float = between(1.0, 2.5, "height of a column in the socket", "m", when=lambda p: p.form == "socket")
+    column: float = between(1.0, 2.5, "height of a column in the socket", "m", when=of_form("socket"))
     round: bool = among((False, True), "the pedestal is round", when=_stub)
     stub: str = among(("H", "SHS", "CHS", "I"), "section of the stub column", when=_stub)
     base: Base = nested(Base, "its base plate", when=_stub)
@@ -173,7 +174,7 @@ class Strip(Structure, name="foundation/strip", grain="fitting"):
     wide: float = between(0.15, 0.5, "width of a strip", "m")
     height: float = between(0.15, 0.5, "of a strip", "m")
     gap: float = between(0.8, 1.6, "from strip to strip", "m")
-    plated: tuple[bool, ...] = each(yes(0.6), "whether a plate is on a sleeper", when=lambda p: p.form == "sleepers")
+    plated: tuple[bool, ...] = each(yes(0.6), "whether a plate is on a sleeper", when=of_form("sleepers"))
     size: float = between(0.1, 0.2, "height of the section on it", "m", when=_carrying)
     shape: str = among(("H", "U", "RHS"), "section on it", when=_carrying)
     called: str = among(("beam", "skid frame"), "what that is called", when=_carrying)
@@ -323,10 +324,10 @@ class Retaining(Structure, name="wall/retaining"):
     height: float = between(0.6, 2.6, "of the wall", "m")
     thick: float = between(0.12, 0.3, "thickness of the wall", "m")
     form: str = among(("L elements", "buttresses", "curved", "corner"), "how it is made")
-    foot: float = between(0.4, 0.9, "length of an element's foot / height", when=lambda p: p.form == "L elements")
-    joined: bool = chance(0.5, "wall and buttresses are one mesh", when=lambda p: p.form == "buttresses")
-    bend: float = between(1.0, 3.0, "radius of the curve", "m", when=lambda p: p.form == "curved")
-    closed: bool = chance(0.5, "without an opening for a pipe", when=lambda p: p.form == "corner")
+    foot: float = between(0.4, 0.9, "length of an element's foot / height", when=of_form("L elements"))
+    joined: bool = chance(0.5, "wall and buttresses are one mesh", when=of_form("buttresses"))
+    bend: float = between(1.0, 3.0, "radius of the curve", "m", when=of_form("curved"))
+    closed: bool = chance(0.5, "without an opening for a pipe", when=of_form("corner"))
 
     def build(self, t: Table) -> Model:
         long, h, w = self.length, self.height, self.thick

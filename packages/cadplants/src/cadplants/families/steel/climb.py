@@ -17,6 +17,7 @@ from cadplants.families.steel.shape import (
     each,
     few_sides,
     filleted,
+    of_form,
     one_of,
     pipe,
     section,
@@ -58,8 +59,8 @@ class _Back(Params):
 
     gap: float = between(0.15, 0.25, "from the ladder to it", "m")
     form: str = among(("wall", "tower", "columns"), "what it is")
-    radius: float = between(0.2, 0.6, "of the tower", "m", when=lambda p: p.form == "tower")
-    column: str = among(("H", "SHS", "U"), "section of the columns", when=lambda p: p.form == "columns")
+    radius: float = between(0.2, 0.6, "of the tower", "m", when=of_form("tower"))
+    column: str = among(("H", "SHS", "U"), "section of the columns", when=of_form("columns"))
 
     def build(self, t: Table, h: float, wide: float) -> None:
         """Puts it down behind a ladder of a height and width [m]."""

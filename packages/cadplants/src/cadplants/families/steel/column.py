@@ -16,6 +16,7 @@ from cadplants.families.steel.shape import (
     bar,
     few_sides,
     flat,
+    of_form,
     pipe,
     section,
     slab_xy,
@@ -37,8 +38,8 @@ class _Cap(Params):
     """A cap plate with its bolts or a short beam on it, or nothing."""
 
     form: str = among(("nothing", "plate", "beam"), "what it is")
-    size: float = between(0.1, 0.2, "height of the beam's section", "m", when=lambda p: p.form == "beam")
-    shape: str = among(("H", "I", "U"), "section of the beam", when=lambda p: p.form == "beam")
+    size: float = between(0.1, 0.2, "height of the beam's section", "m", when=of_form("beam"))
+    shape: str = among(("H", "I", "U"), "section of the beam", when=of_form("beam"))
 
     def build(self, t: Table, size: float) -> None:
         """Puts it down on z = 0, with a plate of a side [m]."""
@@ -126,7 +127,7 @@ class Concrete(Structure, name="column/concrete", weight=0.8, grain="fitting"):
     width: float = between(0.2, 0.6, "of the column", "m")
     form: str = among(("square", "round", "octagonal", "mushroom"), "how it is made")
     longer: float = among((1.0, 1.5), "one side / the other, if it has sides")
-    corbelled: bool = chance(0.6, "a corbel with a beam", when=lambda p: p.form == "square")
+    corbelled: bool = chance(0.6, "a corbel with a beam", when=of_form("square"))
     beam: str = among(("H", "I"), "section of that beam", when=lambda p: p.corbelled)
     footed: bool = chance(0.5, "on a foundation")
 

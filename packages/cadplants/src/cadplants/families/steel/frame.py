@@ -16,6 +16,7 @@ from cadplants.families.steel.shape import (
     grid,
     made,
     number,
+    of_form,
     rect,
     spread,
     yes,
@@ -35,7 +36,7 @@ class Profile(Params):
 
     share: float = between(0.25, 1.0, "height / the greatest that it could have")
     form: str = among(("H", "I", "channel", "angle", "square tube", "round tube"), "section")
-    corner: float = among((0.0, 0.08), "radius of its corners / height", when=lambda p: p.form == "square tube")
+    corner: float = among((0.0, 0.08), "radius of its corners / height", when=of_form("square tube"))
 
     def section(self, style: ModelingStyle, big: float) -> Section:
         """Its outline and hole; at most so high [m]."""
@@ -379,10 +380,10 @@ class Concrete(Structure, name="foundation/concrete", weight=1.5, grain="fitting
         "along x",
         "m",
     )
-    width: float = between(0.4, 1.0, "of a foundation", "m", when=lambda p: p.form == "foundation")
+    width: float = between(0.4, 1.0, "of a foundation", "m", when=of_form("foundation"))
     height: float = between(1.0, 3.0, "of a wall", "m", when=lambda p: p.form != "foundation")
     thick: float = between(0.1, 0.3, "thickness of a wall", "m", when=lambda p: p.form != "foundation")
-    opening: bool = chance(0.5, "an opening in the wall", when=lambda p: p.form == "wall")
+    opening: bool = chance(0.5, "an opening in the wall", when=of_form("wall"))
 
     def build(self, t: Table) -> Model:
         a, b, h = self.length, self.width, self.height

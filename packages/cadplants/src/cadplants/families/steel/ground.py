@@ -2,25 +2,30 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from cadgraph.model.scene import Floats
 from cadplants.builder.device import families_of
 from cadplants.builder.params import among, between, chance, whole
 from cadplants.builder.table import Table
-from cadplants.families.steel.shape import BOTH, Structure, each, few_sides, one_of, rect, slab_xy, slab_xz, spread
+from cadplants.families.steel.shape import (
+    BOTH,
+    Structure,
+    each,
+    few_sides,
+    of_form,
+    one_of,
+    rect,
+    slab_xy,
+    slab_xz,
+    spread,
+)
 from cadplants.family import Model
 from cadplants.mesh_ops import Solid
 from cadplants.polygon import circle
 from cadplants.primitives import box, cylinder, turned
 
 __all__ = ["GROUNDS"]
-
-
-def _form(*forms: str) -> Any:
-    return lambda p: p.form in forms
 
 
 class Slabs(Structure, name="ground/slabs", weight=1.3, grain="fitting"):
@@ -30,12 +35,12 @@ class Slabs(Structure, name="ground/slabs", weight=1.3, grain="fitting"):
     width: float = between(1.2, 4.0, "along y", "m")
     thick: float = among((0.02, 0.1, 0.2, 0.4), "thickness of a slab", "m")
     form: str = among(("fields", "paving", "gutter", "ramp", "holes"), "what it is")
-    fields_along: int = whole(1, 3, "fields along x", when=_form("fields"))
-    fields_across: int = whole(1, 3, "fields along y", when=_form("fields"))
+    fields_along: int = whole(1, 3, "fields along x", when=of_form("fields"))
+    fields_across: int = whole(1, 3, "fields along y", when=of_form("fields"))
     materials: tuple[str, ...] = each(
         one_of("ground", "concrete"), "kind of material of a field", count=lambda p: p.fields_along * p.fields_across
     )
-    holed: bool = chance(0.6, "with holes", when=_form("holes"))
+    holed: bool = chance(0.6, "with holes", when=of_form("holes"))
     footed: bool = chance(0.4, "a foundation on it, if of fields or with a ramp")
     foot: float = between(
         0.3, 0.8, "side of the foundation", "m", when=lambda p: p.footed and p.form in ("fields", "ramp")
@@ -81,16 +86,16 @@ class Relief(Structure, name="ground/relief", grain="fitting"):
     length: float = between(1.5, 4.0, "along x, or diameter", "m")
     width: float = between(1.2, 3.0, "along y", "m")
     form: str = among(("kerbs", "pad", "road", "patch"), "what it is")
-    kerb: float = among((0.06, 0.1, 0.15), "width of a kerb", "m", when=_form("kerbs"))
-    rise: float = among((0.0, 0.1), "of the round pad", "m", when=_form("pad"))
-    post: bool = chance(0.5, "a post on the round pad", when=_form("pad"))
-    points: int = whole(5, 11, "points of the patch each way", when=_form("patch"))
-    rough: float = between(0.02, 0.12, "standard deviation of the patch's heights", "m", when=_form("patch"))
+    kerb: float = among((0.06, 0.1, 0.15), "width of a kerb", "m", when=of_form("kerbs"))
+    rise: float = among((0.0, 0.1), "of the round pad", "m", when=of_form("pad"))
+    post: bool = chance(0.5, "a post on the round pad", when=of_form("pad"))
+    points: int = whole(5, 11, "points of the patch each way", when=of_form("patch"))
+    rough: float = between(0.02, 0.12, "standard deviation of the patch's heights", "m", when=of_form("patch"))
     heights: tuple[float, ...] = each(
         lambda rng, _: float(rng.standard_normal()),
         "of a point / the standard deviation",
         count=lambda p: p.points**2,
-        when=_form("patch"),
+        when=of_form("patch"),
     )
 
     def build(self, t: Table) -> Model:

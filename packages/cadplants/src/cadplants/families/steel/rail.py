@@ -18,6 +18,7 @@ from cadplants.families.steel.shape import (
     each,
     few_sides,
     made,
+    of_form,
     one_of,
     pipe,
     ribbon,
@@ -228,17 +229,17 @@ class Chained(Structure, name="railing/chain", weight=0.8, grain="fitting"):
     def build(self, t: Table) -> Model:
         w, h, r, n = self.width, self.height, self.radius, few_sides(t.style, self.radius, 16)
         foot = turned(outline(5 * r, 0, 5 * r, 0.02, 2 * r, 0.05, r, 0.06), n)
+        top = {
+            "ball": moved(ball(1.4 * r, n), at(0, 0, h + 0.8 * r)),
+            "dome": dome(r, 0.6 * r, h, n),
+            "flat": cylinder(1.3 * r, h, h + 0.01, n),
+        }[self.top]
         for k in range(self.count):
             here, low = t.at(k * w), 0.06
             if self.loose:
                 here.add("base plate", foot, of="rubber")
             else:
                 low = self.bases[k].build(here, 6 * r, 6 * r)
-            top = {
-                "ball": lambda: moved(ball(1.4 * r, n), at(0, 0, h + 0.8 * r)),
-                "dome": lambda: dome(r, 0.6 * r, h, n),
-                "flat": lambda: cylinder(1.3 * r, h, h + 0.01, n),
-            }[self.top]()
             here.add("post", cylinder(r, low, h, n), top, of="safety")
         s = np.linspace(0, 1, 9)
         for level in (0.9 * h, 0.5 * h)[: 1 + self.double]:
@@ -363,17 +364,20 @@ class Barrier(Structure, name="railing/barrier", grain="fitting"):
     form: str = among(("hoops", "W-beam", "planks"), "what it is")
     count: int = whole(1, 3, "bays")
     width: float = between(0.8, 2.0, "of a bay", "m")
-    radius: float = between(0.03, 0.06, "of a hoop's tube", "m", when=lambda p: p.form == "hoops")
+    radius: float = between(0.03, 0.06, "of a hoop's tube", "m", when=of_form("hoops"))
     height: float = between(
-        lambda p: 0.35 if p.form == "hoops" else 0.6, lambda p: 1.0 if p.form == "hoops" else 0.9, "of it", "m"
+        lambda p: 0.35 if p.form == "hoops" else 0.6,
+        lambda p: 1.0 if p.form == "hoops" else 0.9,
+        "of hoops or posts",
+        "m",
     )
-    hoops: tuple[_Hoop, ...] = each(made(_Hoop), "hoop", when=lambda p: p.form == "hoops")
+    hoops: tuple[_Hoop, ...] = each(made(_Hoop), "hoop", when=of_form("hoops"))
     size: float = between(0.08, 0.14, "height of a post's section", "m", when=lambda p: p.form != "hoops")
     post: str = among(("U", "H", "SHS", "C"), "section of the posts", when=lambda p: p.form != "hoops")
     bases: tuple[Base, ...] = bases(lambda p: p.count + 1, when=lambda p: p.form != "hoops")
-    plank: str = among(("U", "RHS", "timber", "flat"), "section of the planks", when=lambda p: p.form == "planks")
-    plank_size: float = between(0.12, 0.25, "height of a plank", "m", when=lambda p: p.form == "planks")
-    planks: int = whole(1, 3, "one above the other", when=lambda p: p.form == "planks")
+    plank: str = among(("U", "RHS", "timber", "flat"), "section of the planks", when=of_form("planks"))
+    plank_size: float = between(0.12, 0.25, "height of a plank", "m", when=of_form("planks"))
+    planks: int = whole(1, 3, "one above the other", when=of_form("planks"))
 
     def build(self, t: Table) -> Model:
         w, h, r = self.width, self.height, self.radius

@@ -22,7 +22,6 @@ from cadplants.transforms import at, looking, spun
 __all__ = [
     "BOTH",
     "CORNERS",
-    "GROUP",
     "ROLLED",
     "Base",
     "Props",
@@ -40,6 +39,7 @@ __all__ = [
     "made",
     "mirrored",
     "number",
+    "of_form",
     "one_of",
     "pipe",
     "rect",
@@ -89,6 +89,11 @@ def one_of(*items: T) -> Callable[[Rng, Any], T]:
 def made(piece: type[P], fixed: Callable[[Any], Mapping[str, Any]] = lambda _: {}) -> Callable[[Rng, Any], P]:
     """Draws one of several pieces, with what the fields before set of it."""
     return lambda rng, p: piece.draw(rng, fixed(p))
+
+
+def of_form(*forms: str) -> Callable[[Any], bool]:
+    """Tells whether something is of one of these forms."""
+    return lambda p: p.form in forms
 
 
 def each(
@@ -297,8 +302,10 @@ class Base(Params):
     """A base plate with its anchors (four, two or none), square, round or clipped."""
 
     thick: float = among((0.008, 0.012, 0.02), "thickness of the plate", "m")
-    form: str = among(("round", "clipped", "square", "two anchors"), "round, square, or square with two anchors")
-    straight: bool = chance(0.5, "its corners are cut, not rounded", when=lambda p: p.form == "clipped")
+    form: str = among(
+        ("round", "clipped", "square", "two anchors"), "round, clipped or square, with four anchors, or square with two"
+    )
+    straight: bool = chance(0.5, "its corners are cut, not rounded", when=of_form("clipped"))
     anchored: bool = chance(0.7, "with anchors")
 
     def build(self, t: Table, a: float, b: float) -> float:
@@ -329,7 +336,7 @@ class Props(Params):
     """What something long along x from 0 lies on: battens, trestles, columns, pedestals."""
 
     form: str = among(("battens", "trestles", "columns", "pedestals"), "what it lies on")
-    batten: float = among((0.08, 0.1, 0.14), "side of a batten", "m", when=lambda p: p.form == "battens")
+    batten: float = among((0.08, 0.1, 0.14), "side of a batten", "m", when=of_form("battens"))
     rise: float = between(
         lambda p: 0.3 if p.form == "pedestals" else 0.5,
         lambda p: 1.0 if p.form == "pedestals" else 2.6,
@@ -337,12 +344,12 @@ class Props(Params):
         "m",
         when=lambda p: p.form != "battens",
     )
-    leg: str = among(("L", "SHS", "CHS"), "section of a trestle's legs", when=lambda p: p.form == "trestles")
+    leg: str = among(("L", "SHS", "CHS"), "section of a trestle's legs", when=of_form("trestles"))
     heads: tuple[str, ...] = each(
-        one_of("SHS", "U", "H"), "sections of the trestles' heads", count=2, when=lambda p: p.form == "trestles"
+        one_of("SHS", "U", "H"), "sections of the trestles' heads", count=2, when=of_form("trestles")
     )
-    shaft: str = among(ROLLED, "section of the columns", when=lambda p: p.form == "columns")
-    feet: tuple[Base, ...] = bases(2, when=lambda p: p.form == "columns")
+    shaft: str = among(ROLLED, "section of the columns", when=of_form("columns"))
+    feet: tuple[Base, ...] = bases(2, when=of_form("columns"))
 
     @property
     def top(self) -> float:

@@ -21,6 +21,7 @@ from cadplants.families.steel.shape import (
     grid,
     lug,
     number,
+    of_form,
     pipe,
     rect,
     ribbon,
@@ -59,9 +60,7 @@ class Deck(Params):
     """What lies on a frame: nothing, a plate, a plate with openings, a grating, a chequered plate."""
 
     form: str = among(("bare", "plate", "openings", "grating", "plate"), "what it is")
-    radii: tuple[float, ...] = each(
-        number(0.03, 0.08), "of an opening", "m", count=2, when=lambda p: p.form == "openings"
-    )
+    radii: tuple[float, ...] = each(number(0.03, 0.08), "of an opening", "m", count=2, when=of_form("openings"))
     called: str = among(
         ("plate", _SKID), "what a plate is called", when=lambda p: p.form in ("plate", "openings"), otherwise=""
     )
@@ -113,8 +112,8 @@ class Payload(Params):
     )
     size: float = between(0.05, 0.08, "height of its section", "m", when=_some)
     shape: str = among(("SHS", "U", "L", "CHS", "strut"), "its section", when=_some)
-    height: float = between(0.6, 1.8, "of it", "m", when=_some)
-    braced: bool = chance(0.5, "the frame is braced", when=lambda p: p.form == "frame")
+    height: float = between(0.6, 1.8, "of what stands there", "m", when=_some)
+    braced: bool = chance(0.5, "the frame is braced", when=of_form("frame"))
 
     @classmethod
     def on(cls, source: Source, p: Any) -> Payload:
@@ -296,12 +295,8 @@ class Pallet(Structure, name="skid frame/pallet", weight=0.8):
         return t.model()
 
     def _timber(self, a: float, b: float) -> tuple[list[Solid], str, float]:
-        wide = self.board
-        ys, xs = (
-            (np.linspace(-b / 2 + wide / 2, b / 2 - wide / 2, n) for n in (3, 5)),
-            (-a / 2 + 0.0725, 0, a / 2 - 0.0725),
-        )
-        three, five = ys
+        wide, xs = self.board, (-a / 2 + 0.0725, 0, a / 2 - 0.0725)
+        three, five = (np.linspace(-b / 2 + wide / 2, b / 2 - wide / 2, n) for n in (3, 5))
         solids = [box((a, 0.1, 0.022), (0, y, 0.011)) for y in three]
         solids += [box((0.145, 0.1, 0.078), (x, y, 0.061)) for x in xs for y in three]
         solids += [box((0.145, b, 0.022), (x, 0, 0.111)) for x in xs]
