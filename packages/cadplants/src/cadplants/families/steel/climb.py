@@ -4,29 +4,36 @@ from __future__ import annotations
 
 import numpy as np
 
-from cadplants.families.chance import pick
-from cadplants.families.steel.caster import wheeled
+from cadgraph.model.scene import Floats
+from cadplants.builder.device import families_of
+from cadplants.builder.params import Params, among, between, chance, given, nested, whole
+from cadplants.builder.table import Table
+from cadplants.families.steel.caster import Casters
 from cadplants.families.steel.floor import panel
 from cadplants.families.steel.shape import (
+    BOTH,
+    Structure,
     bar,
-    chance,
-    drawn,
+    each,
     few_sides,
     filleted,
-    floor_family,
-    num,
-    piece,
+    of_form,
+    one_of,
     pipe,
     section,
+    span_of,
+    spread,
 )
-from cadplants.family import Family, Model, Part
+from cadplants.family import Model
 from cadplants.mesh_ops import Solid, merge, moved, sweep
 from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import rounded_rectangle
 from cadplants.primitives import box, cylinder, ring
-from cadplants.transforms import at, spun
+from cadplants.transforms import at
 
 __all__ = ["CLIMBS"]
+
+_SIDES = ("flat", "CHS", "L", "RHS", "U")
 
 
 def _rung(kind: str, wide: float, z: float, style: ModelingStyle) -> Solid:
@@ -42,237 +49,281 @@ def _rung(kind: str, wide: float, z: float, style: ModelingStyle) -> Solid:
     return box((wide, 0.08, 0.02), (0, 0, z))
 
 
-def _side_rails(wide: float, low: float, high: float, rng: np.random.Generator, style: ModelingStyle) -> list[Solid]:
-    kind = pick(rng, "flat", "CHS", "L", "RHS", "U")
+def _side_rails(kind: str, wide: float, h: float, style: ModelingStyle) -> list[Solid]:
     one = section(kind, 0.065 if kind in ("flat", "RHS") else 0.048, style)
-    return [bar((s * wide / 2, 0, low), (s * wide / 2, 0, high), one, (0, 1, 0)) for s in (-1, 1)]
+    return [bar((s * wide / 2, 0, 0.0), (s * wide / 2, 0, h), one, (0, 1, 0)) for s in BOTH]
 
 
-def _ladder_parts(solids: list[Solid], rng: np.random.Generator, color: str = "safety") -> list[Part]:
-    """A ladder as one mesh or in pieces."""
-    made = [merge(solids)] if chance(rng, 0.45) else solids
-    return [piece(one, "ladder", color, "ladder") for one in made]
-
-
-def _back(h: float, wide: float, gap: float, style: ModelingStyle, rng: np.random.Generator) -> list[Part]:
+class _Back(Params):
     """What a fixed ladder is held by: a wall, a round tower, a pair of columns; and its stand-off brackets."""
-    kind, y = int(rng.integers(3)), gap
-    parts: list[Part] = []
-    if kind == 0:
-        parts.append(piece(box((wide + 1.0, 0.2, h), (0, y + 0.1, h / 2)), "wall", "concrete"))
-    elif kind == 1:
-        r = num(rng, 0.2, 0.6)
-        parts.append(piece(moved(cylinder(r, 0, h, few_sides(style, r, 32)), at(0, y + r)), "column", "concrete"))
-        y += r - float(np.sqrt(max(r * r - wide * wide / 4, 0.0)))
-    else:
-        one = drawn(rng, style, 0.14, ("H", "SHS", "U"))
-        half = float(one[0][:, 1].max())
-        parts += [
-            piece(bar((s * wide / 2, y + half, 0), (s * wide / 2, y + half, h), one, (0, 1, 0)), "column")
-            for s in (-1, 1)
-        ]
-    for z in np.linspace(0.35, h - 0.3, max(2, int(h / 1.6))):
-        for s in (-1, 1):
-            parts.append(piece(box((0.01, y + 0.02, 0.05), (s * (wide / 2 - 0.02), y / 2 - 0.01, z)), "bracket"))
-    return parts
 
+    gap: float = between(0.15, 0.25, "from the ladder to it", "m")
+    form: str = among(("wall", "tower", "columns"), "what it is")
+    radius: float = between(0.2, 0.6, "of the tower", "m", when=of_form("tower"))
+    column: str = among(("H", "SHS", "U"), "section of the columns", when=of_form("columns"))
 
-def _fixed(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
-    """A fixed ladder (EN ISO 14122-4): rungs of any kind, walk-through top, on a wall, tower or columns, no cage."""
-    h, wide, pitch = num(rng, 1.2, 4.5), num(rng, 0.35, 0.55), num(rng, 0.25, 0.3)
-    kind = pick(rng, "round", "square", "serrated", "step")
-    solids = _side_rails(wide, 0.0, h, rng, style)
-    solids += [_rung(kind, wide, float(z), style) for z in np.arange(pitch, h - 0.05, pitch)]
-    top = int(rng.integers(3))
-    for s in (-1, 1):
-        x = s * wide / 2
-        if top == 1:
-            bow = [(x, 0, h), (x, 0, h + 0.9), (x, 0.35, h + 0.9), (x, 0.35, h)]
-            solids.append(pipe(bow, 0.021, style, 0.15))
-        elif top == 2:
-            solids.append(pipe([(x, 0, h), (s * 0.32, 0, h + 0.2), (s * 0.32, 0, h + 1.0)], 0.019, style, 0.08))
-    if top == 0 and chance(rng, 0.4):
-        solids.append(box((0.05, 0.03, h - 0.2), (0, -0.025, h / 2)))
-    return Model([*_ladder_parts(solids, rng), *_back(h, wide, num(rng, 0.15, 0.25), style, rng)])
-
-
-def _hooped(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
-    """A ladder with round, square or open hoops of flat bar or tube and three to seven straps (EN ISO 14122-4)."""
-    h, wide = num(rng, 2.6, 5.0), num(rng, 0.38, 0.5)
-    solids = _side_rails(wide, 0.0, h, rng, style)
-    kind = pick(rng, "round", "square", "serrated")
-    solids += [_rung(kind, wide, float(z), style) for z in np.arange(0.28, h - 0.05, 0.28)]
-    reach, shape = num(rng, 0.6, 0.75), int(rng.integers(3))
-    x = 0.35
-    path = [(wide / 2, 0), (x, -0.15), (x, -reach), (-x, -reach), (-x, -0.15), (-wide / 2, 0)]
-    radius, steps = ((0.34, 6), (0.1, 2), (0.25, 1))[shape]
-    corners = np.column_stack([filleted(np.array(path), radius, steps, closed=False)])
-    hoop = np.column_stack([corners, np.zeros(len(corners))])
-    tubes = chance(rng, 0.3)
-    for z in np.linspace(2.2, h, max(2, int((h - 2.2) / 0.8) + 1)):
-        if tubes:
-            solids.append(moved(pipe(hoop, 0.012, style), at(0, 0, float(z))))
+    def build(self, t: Table, h: float, wide: float) -> None:
+        """Puts it down behind a ladder of a height and width [m]."""
+        y, r = self.gap, self.radius
+        if self.form == "wall":
+            t.add("wall", box((wide + 1.0, 0.2, h), (0, y + 0.1, h / 2)))
+        elif self.form == "tower":
+            t.at(0, y + r).add("column", cylinder(r, 0, h, few_sides(t.style, r, 32)), of="concrete")
+            y += r - float(np.sqrt(max(r * r - wide * wide / 4, 0.0)))
         else:
-            solids.append(moved(sweep(hoop, rounded_rectangle(0.04, 0.006, 0.0), up=(0, 0, 1)), at(0, 0, float(z))))
-    straps = int(rng.integers(3, 8))
-    s = np.cumsum([0, *np.linalg.norm(np.diff(corners, axis=0), axis=1)])
-    for t in np.linspace(0.2, 0.8, straps) * s[-1]:
-        p = [float(np.interp(t, s, corners[:, k])) for k in (0, 1)]
-        solids.append(box((0.03, 0.03, h - 2.2) if tubes else (0.025, 0.012, h - 2.2), (p[0], p[1], (h + 2.2) / 2)))
-    return Model([*_ladder_parts(solids, rng), *_back(h, wide, num(rng, 0.15, 0.25), style, rng)])
+            one = section(self.column, 0.14, t.style)
+            back = y + span_of(one)[3]
+            spread(t, "column", [bar((s * wide / 2, back, 0), (s * wide / 2, back, h), one, (0, 1, 0)) for s in BOTH])
+        for z in np.linspace(0.35, h - 0.3, max(2, int(h / 1.6))):
+            x = wide / 2 - 0.02
+            spread(t, "bracket", [box((0.01, y + 0.02, 0.05), (s * x, y / 2 - 0.01, z)) for s in BOTH])
 
 
-def _ship(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class Fixed(Structure, name="ladder/fixed", weight=1.2):
+    """A fixed ladder (EN ISO 14122-4): rungs of any kind, walk-through top, on a wall, tower or columns, no cage."""
+
+    height: float = between(1.2, 4.5, "of the ladder", "m")
+    width: float = between(0.35, 0.55, "of the ladder", "m")
+    pitch: float = between(0.25, 0.3, "from rung to rung", "m")
+    rung: str = among(("round", "square", "serrated", "step"), "how the rungs are made")
+    side: str = among(_SIDES, "section of the stiles")
+    top: str = among(("plain", "bows", "splayed"), "of the stiles")
+    fall_rail: bool = chance(0.4, "a rail for a fall arrester", when=lambda p: p.top == "plain")
+    joined: bool = chance(0.45, "the ladder is one mesh")
+    back: _Back = nested(_Back, "what holds it")
+
+    def build(self, t: Table) -> Model:
+        h, wide, style = self.height, self.width, t.style
+        solids = _side_rails(self.side, wide, h, style)
+        solids += [_rung(self.rung, wide, float(z), style) for z in np.arange(self.pitch, h - 0.05, self.pitch)]
+        for s in BOTH:
+            x = s * wide / 2
+            if self.top == "bows":
+                bow = [(x, 0, h), (x, 0, h + 0.9), (x, 0.35, h + 0.9), (x, 0.35, h)]
+                solids.append(pipe(bow, 0.021, style, 0.15))
+            elif self.top == "splayed":
+                solids.append(pipe([(x, 0, h), (s * 0.32, 0, h + 0.2), (s * 0.32, 0, h + 1.0)], 0.019, style, 0.08))
+        if self.fall_rail:
+            solids.append(box((0.05, 0.03, h - 0.2), (0, -0.025, h / 2)))
+        spread(t.bundled("ladder"), "ladder", solids, joined=self.joined)
+        self.back.build(t, h, wide)
+        return t.model()
+
+
+class Hooped(Structure, name="ladder/hoops"):
+    """A ladder with round, square or open hoops of flat bar or tube and three to seven straps (EN ISO 14122-4)."""
+
+    height: float = between(2.6, 5.0, "of the ladder", "m")
+    width: float = between(0.38, 0.5, "of the ladder", "m")
+    side: str = among(_SIDES, "section of the stiles")
+    rung: str = among(("round", "square", "serrated"), "how the rungs are made")
+    reach: float = between(0.6, 0.75, "of a hoop", "m")
+    hoop: str = among(("round", "square", "faceted"), "how the hoops are bent")
+    tubes: bool = chance(0.3, "the hoops are of tube, not flat bar")
+    straps: int = whole(3, 7, "that join the hoops")
+    joined: bool = chance(0.45, "the ladder is one mesh")
+    back: _Back = nested(_Back, "what holds it")
+
+    def build(self, t: Table) -> Model:
+        h, wide, reach, style = self.height, self.width, self.reach, t.style
+        solids = _side_rails(self.side, wide, h, style)
+        solids += [_rung(self.rung, wide, float(z), style) for z in np.arange(0.28, h - 0.05, 0.28)]
+        half = [(0.35, -reach), (0.35, -0.15), (wide / 2, 0)]
+        radius, steps = {"round": (0.34, 6), "square": (0.1, 2), "faceted": (0.25, 1)}[self.hoop]
+        corners = filleted([*half[::-1], *((-x, y) for x, y in half)], radius, steps, closed=False)
+        path = np.column_stack([corners, np.zeros(len(corners))])
+        flat = rounded_rectangle(0.04, 0.006, 0.0)
+        hoop = pipe(path, 0.012, style) if self.tubes else sweep(path, flat, up=(0, 0, 1))
+        levels = np.linspace(2.2, h, max(2, int((h - 2.2) / 0.8) + 1))
+        solids += [moved(hoop, at(0, 0, float(z))) for z in levels]
+        s = np.cumsum([0, *np.linalg.norm(np.diff(corners, axis=0), axis=1)])
+        size = (0.03, 0.03, h - 2.2) if self.tubes else (0.025, 0.012, h - 2.2)
+        for f in np.linspace(0.2, 0.8, self.straps) * s[-1]:
+            solids.append(box(size, (*(float(np.interp(f, s, corners[:, k])) for k in (0, 1)), (h + 2.2) / 2)))
+        spread(t.bundled("ladder"), "ladder", solids, joined=self.joined)
+        self.back.build(t, h, wide)
+        return t.model()
+
+
+class Ship(Structure, name="ladder/ship"):
     """A ship's or step ladder at 60 to 75 degrees: flat steps between strings, a handrail each side, a landing beam."""
-    h, wide, angle = num(rng, 1.0, 3.0), num(rng, 0.45, 0.7), np.radians(num(rng, 60, 75))
-    run = h / np.tan(angle)
-    one = section(pick(rng, "flat", "U", "RHS"), num(rng, 0.1, 0.16), style)
-    parts = [
-        piece(bar((0, s * wide / 2, 0), (run, s * wide / 2, h), one), "ladder", "safety", "ladder") for s in (-1, 1)
-    ]
-    deep, kind = num(rng, 0.08, 0.18), pick(rng, "sheet", "bar", "fold")
-    for z in np.arange(0.22, h - 0.1, 0.22):
-        step = panel(kind, deep, wide, 0.025, style)
-        parts.append(piece(moved(step, at(z / np.tan(angle), 0, z - 0.025)), "stair tread", "clamp", "ladder"))
-    for s in (-1, 1) if chance(rng, 0.7) else (1,):
-        y = s * (wide / 2 + 0.02)
+
+    height: float = between(1.0, 3.0, "of the ladder", "m")
+    width: float = between(0.45, 0.7, "of the ladder", "m")
+    slope: float = between(60, 75, "of the ladder", "degrees")
+    string: str = among(("flat", "U", "RHS"), "section of the strings")
+    size: float = between(0.1, 0.16, "height of a string", "m")
+    deep: float = between(0.08, 0.18, "depth of a step", "m")
+    step: str = among(("sheet", "bar", "fold"), "how the steps are made")
+    both: bool = chance(0.7, "a handrail on both sides, not on one")
+    landing: str = among(("U", "H", "I"), "section of the landing's beam")
+
+    def build(self, t: Table) -> Model:
+        h, wide, angle, own = self.height, self.width, np.radians(self.slope), t.bundled("ladder")
+        run = h / np.tan(angle)
+        one = section(self.string, self.size, t.style)
+        spread(own, "ladder", [bar((0, s * wide / 2, 0), (run, s * wide / 2, h), one) for s in BOTH])
+        step = panel(self.step, self.deep, wide, 0.025, t.style)
+        for z in np.arange(0.22, h - 0.1, 0.22):
+            own.at(z / np.tan(angle), 0, z - 0.025).add("stair tread", step, of="clamp")
         off = np.array([-0.25 * np.sin(angle), 0, 0.25 * np.cos(angle)])
-        path = [np.array([0.1 * run, y, 0.1 * h]), np.array([0.1 * run, y, 0.1 * h]) + off]
-        path += [np.array([run, y, h]) + off, np.array([run, y, h])]
-        parts.append(piece(pipe(path, 0.017, style, 0.1), "railing", "handle"))
-    edge = drawn(rng, style, 0.14, ("U", "H", "I"))
-    parts.append(piece(bar((run + 0.05, -wide, h - 0.07), (run + 0.05, wide, h - 0.07), edge), "beam"))
-    parts += [piece(box((0.1, 0.1, h - 0.14), (run + 0.07, s * 0.8 * wide, (h - 0.14) / 2)), "column") for s in (-1, 1)]
-    return Model(parts)
+        for s in BOTH if self.both else (1,):
+            ends = [np.array([f * run, s * (wide / 2 + 0.02), f * h]) for f in (0.1, 1.0)]
+            path = [ends[0], ends[0] + off, ends[1] + off, ends[1]]
+            t.add("railing", pipe(path, 0.017, t.style, 0.1), of="handle")
+        edge, x, z = section(self.landing, 0.14, t.style), run + 0.05, h - 0.07
+        t.add("beam", bar((x, -wide, z), (x, wide, z), edge))
+        spread(t, "column", [box((0.1, 0.1, h - 0.14), (run + 0.07, s * 0.8 * wide, (h - 0.14) / 2)) for s in BOTH])
+        return t.model()
 
 
-def _leaning(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class _Portable(Params):
+    """A section of a portable ladder."""
+
+    long: float = given(3.0, "length", "m")
+    low: float = given(0.0, "where it begins", "m")
+    rungs: tuple[str, ...] = each(
+        one_of("round", "square"), "how a rung is made", count=lambda p: len(_levels(p.low, p.long))
+    )
+    joined: bool = chance(0.45, "in one mesh")
+
+
+def _levels(low: float, long: float) -> Floats:
+    return np.arange(low + 0.2, low + long - 0.1, 0.28)
+
+
+class Leaning(Structure, name="ladder/leaning", weight=0.7, grain="fitting"):
     """A portable ladder leaning on a wall, single or two overlapped sections (EN 131), with feet; or hung up level."""
-    long, wide = num(rng, 1.8, 4.2), num(rng, 0.32, 0.45)
-    one = section(pick(rng, "RHS", "timber", "U"), 0.06, style)
-    parts, hung = [], chance(rng, 0.25)
-    tilt = 0.0 if hung else num(rng, 0.2, 0.35)
-    pose = at(0, 0, 0.0) @ spun("x", -tilt)
-    for k in range(1 if hung else int(rng.integers(1, 3))):
-        low = 0.4 * long * k
-        solids = [bar((s * wide / 2, 0, low), (s * wide / 2, 0, low + long), one, (0, 1, 0)) for s in (-1, 1)]
-        solids += [
-            _rung(pick(rng, "round", "square"), wide, float(z), style)
-            for z in np.arange(low + 0.2, low + long - 0.1, 0.28)
-        ]
-        if k == 0 and not hung:
-            solids += [box((0.04, 0.08, 0.03), (s * wide / 2, 0, 0.01)) for s in (-1, 1)]
-        move = at(0, -0.06 * k, 0)
+
+    length: float = between(1.8, 4.2, "of a section", "m")
+    width: float = between(0.32, 0.45, "of the ladder", "m")
+    side: str = among(("RHS", "timber", "U"), "section of the stiles")
+    hung: bool = chance(0.25, "hung up level")
+    tilt: float = between(0.2, 0.35, "from upright", "rad", when=lambda p: not p.hung)
+    count: int = whole(1, 2, "sections", when=lambda p: not p.hung, otherwise=1)
+    lower: _Portable = nested(lambda s, p: _Portable.draw(s, {"long": p.length}), "lower section")
+    upper: _Portable = nested(
+        lambda s, p: _Portable.draw(s, {"long": p.length, "low": 0.4 * p.length}),
+        "upper section",
+        when=lambda p: p.count == 2,
+    )
+
+    def build(self, t: Table) -> Model:
+        long, wide, hung, tilt = self.length, self.width, self.hung, self.tilt
+        one = section(self.side, 0.06, t.style)
+        leant = t.spun("x", -tilt).bundled("ladder")
+        for k, part in enumerate((self.lower, self.upper)[: self.count]):
+            low, x = part.low, wide / 2
+            solids = [bar((s * x, 0, low), (s * x, 0, low + long), one, (0, 1, 0)) for s in BOTH]
+            levels = zip(part.rungs, _levels(low, long), strict=True)
+            solids += [_rung(kind, wide, float(z), t.style) for kind, z in levels]
+            if k == 0 and not hung:
+                solids += [box((0.04, 0.08, 0.03), (s * x, 0, 0.01)) for s in BOTH]
+            here = leant.at(-long / 2, 0, 1.2).spun("y", np.pi / 2) if hung else leant.at(0, -0.06 * k, 0)
+            spread(here, "ladder", solids, of="clamp", joined=part.joined)
+        high = 2.0 if hung else long * np.cos(tilt)
+        y = 0.035 if hung else long * np.sin(tilt) + 0.03 * np.cos(tilt)
+        t.add("wall", box((long + 0.4 if hung else 1.6, 0.15, high), (0, y + 0.075, high / 2)))
         if hung:
-            move = at(-long / 2, 0, 1.2) @ spun("y", np.pi / 2)
-        parts += _ladder_parts([moved(one_, pose @ move) for one_ in solids], rng, "clamp")
-    high = 2.0 if hung else long * np.cos(tilt)
-    y = 0.035 if hung else long * np.sin(tilt) + 0.03 * np.cos(tilt)
-    parts.append(piece(box((long + 0.4 if hung else 1.6, 0.15, high), (0, y + 0.075, high / 2)), "wall", "concrete"))
-    if hung:
-        parts += [
-            piece(box((0.04, 0.1, 0.03), (x, -0.015, 1.2 - wide / 2 - 0.03)), "bracket")
-            for x in (-0.3 * long, 0.3 * long)
-        ]
-    return Model(parts)
+            z = 1.2 - wide / 2 - 0.03
+            spread(t, "bracket", [box((0.04, 0.1, 0.03), (s * 0.3 * long, -0.015, z)) for s in BOTH])
+        return t.model()
 
 
-def _steps(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class Steps(Structure, name="ladder/steps", weight=0.8, grain="fitting"):
     """A free-standing step ladder (EN 131): steps between two front stiles, rear struts, a top platform or cap."""
-    count, wide = int(rng.integers(2, 8)), num(rng, 0.35, 0.55)
-    h, lean = 0.23 * count, num(rng, 0.25, 0.35)
-    one = section(pick(rng, "U", "RHS", "timber", "CHS"), 0.05, style)
-    joined = chance(rng, 0.4)
-    solids, treads = [], []
-    for s in (-1, 1):
-        solids.append(bar((0, s * (wide / 2 + 0.05), 0), (lean * h, s * wide / 2, h), one))
-        solids.append(bar((2.1 * lean * h + 0.1, s * (wide / 2 + 0.03), 0), (lean * h + 0.1, s * wide / 2, h), one))
-    for k in range(1, count):
-        z = h * k / count
-        treads.append(box((0.09, wide + 0.06 * (1 - k / count), 0.025), (lean * z, 0, z)))
-    treads.append(box((num(rng, 0.15, 0.35), wide + 0.05, 0.03), (lean * h + 0.05, 0, h + 0.01)))
-    solids += [box((0.02, wide, 0.03), (lean * h * (2.1 - 1.1 * f) + 0.1, 0, f * h)) for f in (0.2, 0.6)]
-    if chance(rng, 0.4):
-        path = [
-            (lean * h, -wide / 2, h),
-            (lean * h + 0.15, -wide / 2, h + 0.6),
-            (lean * h + 0.15, wide / 2, h + 0.6),
-            (lean * h, wide / 2, h),
-        ]
-        solids.append(pipe(path, 0.014, style, 0.08))
-    if joined:
-        return Model([piece(merge([*solids, *treads]), "ladder", "clamp")])
-    return Model(
-        [
-            *(piece(x, "ladder", "clamp", "ladder") for x in solids),
-            *(piece(x, "stair tread", "clamp", "ladder") for x in treads),
-        ]
-    )
+
+    count: int = whole(2, 7, "steps")
+    width: float = between(0.35, 0.55, "of the top", "m")
+    lean: float = between(0.25, 0.35, "run / height of the front stiles")
+    side: str = among(("U", "RHS", "timber", "CHS"), "section of the stiles")
+    joined: bool = chance(0.4, "in one mesh")
+    cap: float = between(0.15, 0.35, "depth of the top", "m")
+    bowed: bool = chance(0.4, "a bow to hold on to")
+
+    def build(self, t: Table) -> Model:
+        wide, lean, h, n = self.width, self.lean, 0.23 * self.count, self.count
+        one, run = section(self.side, 0.05, t.style), lean * h
+        solids = []
+        for s in BOTH:
+            y = s * wide / 2
+            solids.append(bar((0, s * (wide / 2 + 0.05), 0), (run, y, h), one))
+            solids.append(bar((2.1 * run + 0.1, s * (wide / 2 + 0.03), 0), (run + 0.1, y, h), one))
+        solids += [box((0.02, wide, 0.03), (run * (2.1 - 1.1 * f) + 0.1, 0, f * h)) for f in (0.2, 0.6)]
+        treads = [box((0.09, wide + 0.06 * (1 - k / n), 0.025), (run * k / n, 0, h * k / n)) for k in range(1, n)]
+        treads.append(box((self.cap, wide + 0.05, 0.03), (run + 0.05, 0, h + 0.01)))
+        if self.bowed:
+            half = [(run, h), (run + 0.15, h + 0.6)]
+            path = [(x, -wide / 2, z) for x, z in half] + [(x, wide / 2, z) for x, z in half[::-1]]
+            solids.append(pipe(path, 0.014, t.style, 0.08))
+        if self.joined:
+            t.add("ladder", *solids, *treads, of="clamp")
+        else:
+            spread(t.bundled("ladder"), "ladder", solids, of="clamp")
+            spread(t.bundled("ladder"), "stair tread", treads, of="clamp")
+        return t.model()
 
 
-def _irons(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class RungIrons(Structure, name="ladder/rung irons", weight=0.7, grain="fitting"):
     """Rung irons cast into a wall, pit or shaft ring (EN 13101): bows one above the other, in one row or staggered."""
-    count, wide, reach = int(rng.integers(3, 11)), num(rng, 0.25, 0.4), num(rng, 0.12, 0.2)
-    h, r, stagger = 0.3 * count + 0.4, num(rng, 0.009, 0.014), pick(rng, 0.0, 0.0, 0.14)
-    parts = []
-    if chance(rng, 0.6):
-        parts.append(piece(box((1.4, 0.2, h), (0, 0.1, h / 2)), "wall", "concrete"))
-    else:
-        bend = num(rng, 0.45, 0.7)
-        shaft = ring(bend, bend + 0.1, 0, h, few_sides(style, bend, 32))
-        parts.append(piece(moved(shaft, at(0, -np.sqrt(bend * bend - wide * wide / 4))), "wall", "concrete"))
-    dip = pick(rng, 0.0, 0.03)
-    for k in range(count):
-        z, x = 0.3 + 0.3 * k, stagger * (-1) ** k
-        path = [(-wide / 2, 0.02, z), (-wide / 2, -reach, z), (-wide / 2 + 0.05, -reach, z - dip)]
-        path += [(-x_, y_, z_) for x_, y_, z_ in path[::-1]]
-        parts.append(piece(moved(pipe(path, r, style, 0.03), at(x)), "ladder"))
-    return Model(parts)
+
+    count: int = whole(3, 10, "irons")
+    width: float = between(0.25, 0.4, "of an iron", "m")
+    reach: float = between(0.12, 0.2, "of an iron", "m")
+    radius: float = between(0.009, 0.014, "of an iron's bar", "m")
+    stagger: float = among((0.0, 0.0, 0.14), "how far an iron is out of line", "m")
+    wall: bool = chance(0.6, "in a wall, not a shaft")
+    bend: float = between(0.45, 0.7, "radius of the shaft", "m", when=lambda p: not p.wall)
+    dip: float = among((0.0, 0.03), "how far an iron's middle is down", "m")
+
+    def build(self, t: Table) -> Model:
+        wide, h, bend = self.width, 0.3 * self.count + 0.4, self.bend
+        if self.wall:
+            t.add("wall", box((1.4, 0.2, h), (0, 0.1, h / 2)))
+        else:
+            shaft = ring(bend, bend + 0.1, 0, h, few_sides(t.style, bend, 32))
+            t.at(0, -float(np.sqrt(bend * bend - wide * wide / 4))).add("wall", shaft)
+        half = [(wide / 2 - 0.05, -self.reach, -self.dip), (wide / 2, -self.reach, 0.0), (wide / 2, 0.02, 0.0)]
+        path = [*((-x, y, z) for x, y, z in half[::-1]), *half]
+        iron = pipe(path, self.radius, t.style, 0.03)
+        for k in range(self.count):
+            t.at(self.stagger * (-1) ** k, 0, 0.3 + 0.3 * k).add("ladder", iron, of="steel")
+        return t.model()
 
 
-def _mobile(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class Mobile(Structure, name="ladder/mobile", weight=0.9, grain="fitting"):
     """Mobile steps (EN 131-7): a tube frame on casters with treads, a platform and a railing round it."""
-    count, wide, r = int(rng.integers(2, 7)), num(rng, 0.5, 0.8), num(rng, 0.04, 0.07)
-    go, land = num(rng, 0.19, 0.25), num(rng, 0.4, 0.7)
-    run, d = go * count, 0.02
-    spots = [(x, s * wide / 2) for x in (0.05, run + land) for s in (-1, 1)]
-    parts, low = wheeled(spots, (pick(rng, "swivel", "stem", "fixed"),), r, style, rng)
-    h = low + 0.04 + 0.21 * count
-    rail = chance(rng, 0.8)
-    for s in (-1, 1):
-        y = s * wide / 2
-        parts.append(piece(pipe([(0, y, low + d), (run + land, y, low + d)], d, style), "ladder", "safety", "ladder"))
-        parts.append(piece(pipe([(0.0, y, low + d), (run, y, h)], d, style), "ladder", "safety", "ladder"))
-        for x in (run, run + land):
-            parts.append(piece(pipe([(x, y, low + d), (x, y, h)], d, style), "post", "safety", "ladder"))
-        if rail:
-            path = [
-                (0.4 * run, y, low + 0.4 * (h - low)),
-                (0.4 * run, y, low + 0.4 * (h - low) + 0.8),
-                (run, y, h + 0.95),
-                (run + land, y, h + 0.95),
-                (run + land, y, h),
-            ]
-            parts.append(piece(pipe(path, 0.8 * d, style, 0.1), "railing", "safety", "ladder"))
-    kind = pick(rng, "bar", "sheet", "fold", "perforated")
-    for k in range(1, count):
-        z = low + (h - low) * k / count
-        step = moved(panel(kind, go, wide - 2 * d, 0.025, style), at(run * k / count, 0, z))
-        parts.append(piece(step, "stair tread", "clamp", "ladder"))
-    parts.append(
-        piece(
-            moved(panel(kind, land, wide + 2 * d, 0.03, style), at(run + land / 2, 0, h)), "platform", "clamp", "ladder"
-        )
-    )
-    return Model(parts)
+
+    count: int = whole(2, 6, "steps with the platform")
+    width: float = between(0.5, 0.8, "of the steps", "m")
+    radius: float = between(0.04, 0.07, "of a caster's wheel", "m")
+    going: float = between(0.19, 0.25, "of a step", "m")
+    land: float = between(0.4, 0.7, "length of the platform", "m")
+    make: str = among(("swivel", "stem", "fixed"), "of the casters")
+    casters: Casters = nested(lambda s, p: Casters.draw(s, {"makes": (p.make,)}), "casters")
+    railed: bool = chance(0.8, "a railing on either side")
+    step: str = among(("bar", "sheet", "fold", "perforated"), "how steps and platform are made")
+
+    def build(self, t: Table) -> Model:
+        n, wide, go, land, d, style = self.count, self.width, self.going, self.land, 0.02, t.style
+        run, own = go * n, t.bundled("ladder")
+        low = self.casters.build(t, [(x, s * wide / 2) for x in (0.05, run + land) for s in BOTH], self.radius)
+        rise, z = 0.04 + 0.21 * n, low + d
+        h = low + rise
+        for y in (-wide / 2, wide / 2):
+            own.add("ladder", pipe([(0, y, z), (run + land, y, z)], d, style))
+            own.add("ladder", pipe([(0.0, y, z), (run, y, h)], d, style))
+            posts = [pipe([(x, y, z), (x, y, h)], d, style) for x in (run, run + land)]
+            spread(own, "post", posts, of="safety")
+            if self.railed:
+                foot, far = low + 0.4 * rise, run + land
+                ways = ((0.4 * run, foot), (0.4 * run, foot + 0.8), (run, h + 0.95), (far, h + 0.95), (far, h))
+                own.add("railing", pipe([(x, y, z) for x, z in ways], 0.8 * d, style, 0.1))
+        step = panel(self.step, go, wide - 2 * d, 0.025, style)
+        for k in range(1, n):
+            own.at(run * k / n, 0, low + rise * k / n).add("stair tread", step, of="clamp")
+        own.at(run + land / 2, 0, h).add("platform", panel(self.step, land, wide + 2 * d, 0.03, style))
+        return t.model()
 
 
-CLIMBS: tuple[Family, ...] = (
-    floor_family("ladder/fixed", _fixed, 1.2),
-    floor_family("ladder/hoops", _hooped, 1.0),
-    floor_family("ladder/ship", _ship, 1.0),
-    floor_family("ladder/leaning", _leaning, 0.7, "fitting"),
-    floor_family("ladder/steps", _steps, 0.8, "fitting"),
-    floor_family("ladder/rung irons", _irons, 0.7, "fitting"),
-    floor_family("ladder/mobile", _mobile, 0.9, "fitting"),
-)
+CLIMBS = families_of(Fixed, Hooped, Ship, Leaning, Steps, RungIrons, Mobile)

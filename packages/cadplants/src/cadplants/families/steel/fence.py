@@ -2,26 +2,36 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
+from typing import Any
+
 import numpy as np
 
-from cadplants.families.chance import pick
+from cadplants.builder.device import families_of
+from cadplants.builder.params import Params, among, between, chance, given, nested, whole
+from cadplants.builder.table import Table
 from cadplants.families.steel.caster import wheel
 from cadplants.families.steel.shape import (
+    BOTH,
+    Base,
+    Structure,
     bar,
-    base,
-    bolted,
-    chance,
+    bases,
+    bolts,
+    each,
     few_sides,
-    floor_family,
-    num,
-    piece,
+    made,
+    number,
+    one_of,
     pipe,
     ribbon,
     section,
     slab_xy,
     slab_xz,
+    spread,
+    yes,
 )
-from cadplants.family import Family, Model, Part
+from cadplants.family import Model
 from cadplants.mesh_ops import Solid, extrude, merge, moved
 from cadplants.modeling_style import ModelingStyle
 from cadplants.primitives import along, box, cylinder, dome, ring, rod
@@ -29,29 +39,48 @@ from cadplants.transforms import at, spun
 
 __all__ = ["FENCES"]
 
+_JOINED = "in one mesh"
 
-def _whole(solids: list[Solid], name: str, color: str, rng: np.random.Generator, share: float = 0.65) -> list[Part]:
+
+def _whole(t: Table, name: str, solids: Iterable[Solid], joined: bool, of: str) -> None:
     """One mesh, or as many as there are pieces."""
-    return [piece(one, name, color, name) for one in ([merge(solids)] if chance(rng, share) else solids)]
+    spread(t.bundled(name), name, solids, of=of, joined=joined)
 
 
-def _posts(
-    xs: list[float], h: float, style: ModelingStyle, rng: np.random.Generator, kinds: tuple[str, ...]
-) -> tuple[list[Part], float]:
-    """Posts in the ground, on plates or in concrete; and half their width along x."""
-    one, foot = section(pick(rng, *kinds), num(rng, 0.045, 0.09), style), int(rng.integers(3))
-    parts: list[Part] = []
-    for x in xs:
-        low = 0.0
-        if foot == 0:
-            plates, low = base(x, 0, (0.16, 0.16), style, rng)
-            parts += plates
-        elif foot == 1:
-            parts.append(piece(moved(cylinder(0.15, -0.3, 0.0, 10), at(x)), "foundation", "concrete"))
-        parts.append(piece(bar((x, 0, low), (x, 0, h), one, (0, 1, 0)), "post", "fence", "fence"))
-        if chance(rng, 0.3):
-            parts.append(piece(box((0.1, 0.1, 0.01), (x, 0, h + 0.005)), "plate", "fence", "fence"))
-    return parts, max(-float(one[0][:, 0].min()), float(one[0][:, 0].max()))
+class _Post(Params):
+    """One of a fence's posts."""
+
+    plated: bool = given(False, "whether it stands on a base plate")
+    base: Base = nested(Base, "base plate", when=lambda p: p.plated)
+    capped: bool = chance(0.3, "a cap plate")
+
+
+class Posts(Params):
+    """Posts in the ground, on plates or in concrete."""
+
+    count: int = given(2, "posts")
+    shapes: tuple[str, ...] = given(("SHS",), "sections that they can have")
+    shape: str = among(lambda p: p.shapes, "section")
+    size: float = between(0.045, 0.09, "height of the section", "m")
+    foot: str = among(("plates", "concrete", "ground"), "what they stand in")
+    members: tuple[_Post, ...] = each(made(_Post, lambda p: {"plated": p.foot == "plates"}), "post")
+
+    @staticmethod
+    def of(*shapes: str) -> Posts:
+        """Of a fence, one more than it has bays."""
+        return nested(lambda s, p: Posts.draw(s, {"count": p.count + 1, "shapes": shapes}), "of the fence")
+
+    def build(self, t: Table, xs: Sequence[float], h: float) -> float:
+        """Puts them down at some places along x; half their width [m]."""
+        one, own = section(self.shape, self.size, t.style), t.bundled("fence")
+        for x, how in zip(xs, self.members, strict=True):
+            low = how.base.build(t.at(x), 0.16, 0.16) if how.plated else 0.0
+            if self.foot == "concrete":
+                t.at(x).add("foundation", cylinder(0.15, -0.3, 0.0, 10))
+            own.add("post", bar((x, 0, low), (x, 0, h), one, (0, 1, 0)), of="fence")
+            if how.capped:
+                own.add("plate", box((0.1, 0.1, 0.01), (x, 0, h + 0.005)), of="fence")
+        return max(-float(one[0][:, 0].min()), float(one[0][:, 0].max()))
 
 
 def _mesh(w: float, low: float, high: float, pitch: tuple[float, float], r: float = 0.0025) -> list[Solid]:
@@ -62,355 +91,430 @@ def _mesh(w: float, low: float, high: float, pitch: tuple[float, float], r: floa
     return [*wires, *(box((w, 2 * r, 2 * r), (w / 2, 2 * r, z)) for z in levels)]
 
 
-def _palisade(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class Palisade(Structure, name="fence/palisade"):
     """Palisade (BS 1722-12): pressed pales with pointed, notched or round heads on two angle rails between posts."""
-    count, w, h = int(rng.integers(1, 3)), num(rng, 1.5, 2.75), num(rng, 1.5, 2.6)
-    parts, half = _posts([k * w for k in range(count + 1)], h - 0.1, style, rng, ("I", "H", "SHS"))
-    head, wide = int(rng.integers(3)), 0.065
-    tops = {0: [(wide / 2, h - 0.08), (0, h), (-wide / 2, h - 0.08)], 1: [(wide / 2, h), (0, h - 0.06), (-wide / 2, h)]}
-    shape = [
-        (-wide / 2, 0.05),
-        (wide / 2, 0.05),
-        *tops.get(head, [(wide / 2, h - 0.03), (0.01, h), (-0.01, h), (-wide / 2, h - 0.03)]),
-    ]
-    pale, y = slab_xz(shape, 0.003), -0.004 - half
-    for k in range(count):
-        solids = [
-            bar((k * w, -half + 0.0115, z), ((k + 1) * w, -half + 0.0115, z), section("L", 0.05, style))
-            for z in (0.3, h - 0.35)
-        ]
-        solids += [moved(pale, at(x, y)) for x in np.arange(k * w + 0.1, (k + 1) * w - 0.05, 0.15)]
-        parts += _whole(solids, "fence", "fence", rng)
-    return Model(parts)
+
+    count: int = whole(1, 2, "bays")
+    width: float = between(1.5, 2.75, "of a bay", "m")
+    height: float = between(1.5, 2.6, "of a pale", "m")
+    posts: Posts = Posts.of("I", "H", "SHS")
+    head: str = among(("point", "notch", "bevel"), "of a pale")
+    joined: tuple[bool, ...] = each(yes(0.65), "whether a bay is one mesh")
+
+    def build(self, t: Table) -> Model:
+        w, h, x = self.width, self.height, 0.065 / 2
+        half = self.posts.build(t, [k * w for k in range(self.count + 1)], h - 0.1)
+        top = {
+            "point": [(x, h - 0.08), (0, h), (-x, h - 0.08)],
+            "notch": [(x, h), (0, h - 0.06), (-x, h)],
+            "bevel": [(x, h - 0.03), (0.01, h), (-0.01, h), (-x, h - 0.03)],
+        }[self.head]
+        pale, y, rail = slab_xz([(-x, 0.05), (x, 0.05), *top], 0.003), 0.0115 - half, section("L", 0.05, t.style)
+        for k, joined in enumerate(self.joined):
+            a, b = k * w, (k + 1) * w
+            solids = [bar((a, y, z), (b, y, z), rail) for z in (0.3, h - 0.35)]
+            solids += [moved(pale, at(x, -0.004 - half)) for x in np.arange(a + 0.1, b - 0.05, 0.15)]
+            _whole(t, "fence", solids, joined, "fence")
+        return t.model()
 
 
-def _folded_mesh(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class _MeshPanel(Params):
+    """A panel of welded mesh."""
+
+    folded: bool = chance(0.6, "with double wires")
+    folds: int = whole(2, 4, "double wires", when=lambda p: p.folded)
+    joined: bool = chance(0.85, _JOINED)
+
+
+class WeldedMesh(Structure, name="fence/welded mesh", weight=1.2):
     """Welded mesh panels with single or double wires, clamped to square posts (EN 10223-7)."""
-    count, w, h = int(rng.integers(1, 4)), num(rng, 1.2, 2.5), num(rng, 0.8, 2.4)
-    parts, half = _posts([k * w for k in range(count + 1)], h + 0.05, style, rng, ("SHS", "RHS", "CHS"))
-    y = -half - 0.008
-    for k in range(count):
-        solids = [moved(one, at(k * w + 0.005, y)) for one in _mesh(w - 0.01, 0.05, h, (0.06, 0.2))]
-        for z in np.linspace(0.25, h - 0.2, int(rng.integers(2, 5))) if chance(rng, 0.6) else ():
-            solids.append(box((w - 0.02, 0.006, 0.006), ((k + 0.5) * w, y - 0.005, z)))
-        parts += _whole(solids, "fence", "fence", rng, 0.85)
-    for k in range(count + 1):
-        parts += [piece(box((0.05, 0.02, 0.03), (k * w, y, z)), "clamp", "trim") for z in (0.25, h - 0.2)]
-    return Model(parts)
+
+    count: int = whole(1, 3, "panels")
+    width: float = between(1.2, 2.5, "of a panel", "m")
+    height: float = between(0.8, 2.4, "of a panel", "m")
+    posts: Posts = Posts.of("SHS", "RHS", "CHS")
+    panels: tuple[_MeshPanel, ...] = each(made(_MeshPanel), "panel")
+
+    def build(self, t: Table) -> Model:
+        w, h, xs = self.width, self.height, [k * self.width for k in range(self.count + 1)]
+        y = -self.posts.build(t, xs, h + 0.05) - 0.008
+        for x, panel in zip(xs, self.panels, strict=False):
+            solids = [moved(one, at(x + 0.005, y)) for one in _mesh(w - 0.01, 0.05, h, (0.06, 0.2))]
+            levels = np.linspace(0.25, h - 0.2, panel.folds)
+            solids += [box((w - 0.02, 0.006, 0.006), (x + w / 2, y - 0.005, z)) for z in levels]
+            _whole(t, "fence", solids, panel.joined, "fence")
+        for x in xs:
+            spread(t, "clamp", [box((0.05, 0.02, 0.03), (x, y, z)) for z in (0.25, h - 0.2)], of="trim")
+        return t.model()
 
 
-def _chain_link(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class ChainLink(Structure, name="fence/chain link"):
     """Chain-link on round posts with line wires, raking stays and arms with barbed wire (BS 1722-1)."""
-    count, w, h = int(rng.integers(1, 3)), num(rng, 1.5, 2.5), num(rng, 1.2, 2.4)
-    long, pitch = count * w, num(rng, 0.12, 0.2)
-    parts, half = _posts([k * w for k in range(count + 1)], h + 0.1, style, rng, ("CHS", "L", "SHS"))
-    strands, y = [], -half - 0.002
-    for way in (-1, 1):
-        for c in np.arange(-h, long + h, pitch):
-            lo, hi = (max(0.0, c), min(long, c + h)) if way > 0 else (max(0.0, c - h), min(long, c))
-            if hi - lo > 0.05:
-                z = (lo - c, hi - c) if way > 0 else (c - lo, c - hi)
-                strands.append(rod((lo, y, 0.04 + z[0]), (hi, y + 0.003 * way, 0.04 + z[1]), 0.002, 4))
-    strands += [rod((0, y, z), (long, y, z), 0.003, 5) for z in (0.06, h / 2, h)]
-    parts.append(piece(merge(strands), "fence", "fence", "fence"))
-    if chance(rng, 0.6):
-        for x, s in ((0.0, 1), (long, -1)):
-            parts.append(
-                piece(
-                    pipe([(x + s * half, 0, 0.75 * h), (x + s * 0.6 * h, 0, 0)], 0.019, style),
-                    "brace",
-                    "fence",
-                    "fence",
-                )
-            )
-    if chance(rng, 0.5):
-        wires = [
-            rod((0, -0.12 * k, h + 0.1 + 0.1 * k), (long, -0.12 * k, h + 0.1 + 0.1 * k), 0.003, 5) for k in (1, 2, 3)
-        ]
-        parts.append(piece(merge(wires), "fence", "fence", "fence"))
-        parts += [
-            piece(rod((k * w, 0, h + 0.06), (k * w, -0.37, h + 0.41), 0.018, 8), "post", "fence", "fence")
-            for k in range(count + 1)
-        ]
-    return Model(parts)
+
+    count: int = whole(1, 2, "bays")
+    width: float = between(1.5, 2.5, "of a bay", "m")
+    height: float = between(1.2, 2.4, "of the mesh", "m")
+    pitch: float = between(0.12, 0.2, "from strand to strand", "m")
+    posts: Posts = Posts.of("CHS", "L", "SHS")
+    stayed: bool = chance(0.6, "raking stays at its ends")
+    barbed: bool = chance(0.5, "arms with barbed wire")
+
+    def build(self, t: Table) -> Model:
+        w, h, xs, own = self.width, self.height, [k * self.width for k in range(self.count + 1)], t.bundled("fence")
+        half, long, strands = self.posts.build(t, xs, h + 0.1), self.count * w, []
+        y = -half - 0.002
+        for way in BOTH:
+            for c in np.arange(-h, long + h, self.pitch):
+                lo, hi = (max(0.0, c), min(long, c + h)) if way > 0 else (max(0.0, c - h), min(long, c))
+                if hi - lo > 0.05:
+                    a, b = ((x, 0.04 + way * (x - c)) for x in (lo, hi))
+                    strands.append(rod((a[0], y, a[1]), (b[0], y + 0.003 * way, b[1]), 0.002, 4))
+        own.add("fence", *strands, *(rod((0, y, z), (long, y, z), 0.003, 5) for z in (0.06, h / 2, h)))
+        for x, s in ((0.0, 1), (long, -1)) if self.stayed else ():
+            stay = pipe([(x + s * half, 0, 0.75 * h), (x + s * 0.6 * h, 0, 0)], 0.019, t.style)
+            own.add("brace", stay, of="fence")
+        if self.barbed:
+            lines = [(-0.12 * k, h + 0.1 + 0.1 * k) for k in (1, 2, 3)]
+            own.add("fence", *(rod((0, y, z), (long, y, z), 0.003, 5) for y, z in lines))
+            spread(own, "post", [rod((x, 0, h + 0.06), (x, -0.37, h + 0.41), 0.018, 8) for x in xs], of="fence")
+        return t.model()
 
 
-def _sheeted(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+_SCREEN_POSTS = {"precast": ("H",), "upright": ("timber", "SHS"), "level": ("timber", "H")}
+
+
+class Screen(Structure, name="fence/screen"):
     """A screen of trapezoidal sheet, boards, slats or precast planks between posts."""
-    count, w, h = int(rng.integers(1, 4)), num(rng, 1.2, 2.4), num(rng, 1.0, 2.4)
-    kind = pick(rng, "trapeze", "upright", "level", "louvre", "precast")
-    kinds = {"precast": ("H",), "upright": ("timber", "SHS"), "level": ("timber", "H")}.get(kind, ("SHS", "H", "U"))
-    parts, half = _posts([k * w for k in range(count + 1)], h + 0.05, style, rng, kinds)
-    color = {"precast": "concrete", "upright": "safety", "level": "safety"}.get(kind, "fence")
-    for k in range(count):
-        a, b = k * w, (k + 1) * w
-        solids: list[Solid] = []
-        if kind == "trapeze":
-            xs = np.arange(a, b + 0.001, (w) / max(6, int(w / 0.06)))
+
+    count: int = whole(1, 3, "bays")
+    width: float = between(1.2, 2.4, "of a bay", "m")
+    height: float = between(1.0, 2.4, "of the screen", "m")
+    fill: str = among(
+        ("trapeze", "upright", "level", "louvre", "precast"),
+        "trapezoidal sheet, upright boards, level boards, slats or precast planks",
+    )
+    posts: Posts = nested(
+        lambda s, p: Posts.draw(s, {"count": p.count + 1, "shapes": _SCREEN_POSTS.get(p.fill, ("SHS", "H", "U"))}),
+        "of the screen",
+    )
+    joined: tuple[bool, ...] = each(yes(0.65), "whether a bay is one mesh")
+
+    def build(self, t: Table) -> Model:
+        w = self.width
+        half = self.posts.build(t, [k * w for k in range(self.count + 1)], self.height + 0.05)
+        of = {"precast": "concrete", "upright": "safety", "level": "safety"}.get(self.fill, "fence")
+        for k, joined in enumerate(self.joined):
+            _whole(t, "fence", self._bay(k * w, (k + 1) * w, half), joined, of)
+        return t.model()
+
+    def _bay(self, a: float, b: float, half: float) -> list[Solid]:
+        """What is between two posts."""
+        w, h, x = self.width, self.height, (a + b) / 2
+        if self.fill == "trapeze":
+            xs = np.arange(a, b + 0.001, w / max(6, int(w / 0.06)))
             line = np.column_stack([xs, -half - 0.02 - 0.035 * ((np.arange(len(xs)) // 2) % 2)])
-            solids.append(extrude(ribbon(line, 0.0015), 0.05, h))
-            solids += [box((w, 0.03, 0.04), ((a + b) / 2, -half - 0.003, z)) for z in (0.3, h - 0.2)]
-        elif kind == "upright":
-            solids += [
-                box((0.1, 0.022, h - 0.1), (x, -half - 0.041, h / 2)) for x in np.arange(a + 0.06, b - 0.03, 0.12)
+            rails = [box((w, 0.03, 0.04), (x, -half - 0.003, z)) for z in (0.3, h - 0.2)]
+            return [extrude(ribbon(line, 0.0015), 0.05, h), *rails]
+        if self.fill == "upright":
+            boards = [
+                box((0.1, 0.022, h - 0.1), (x_, -half - 0.041, h / 2)) for x_ in np.arange(a + 0.06, b - 0.03, 0.12)
             ]
-            solids += [box((w, 0.05, 0.08), ((a + b) / 2, -half - 0.01, z)) for z in (0.3, h - 0.3)]
-        elif kind == "level":
-            solids += [box((w, 0.03, 0.14), ((a + b) / 2, -half - 0.015, z)) for z in np.arange(0.15, h, 0.16)]
-        elif kind == "louvre":
-            blade = [
-                moved(box((w - 2 * half, 0.09, 0.003)), at((a + b) / 2, 0, z) @ spun("x", 0.7))
-                for z in np.arange(0.12, h, 0.09)
-            ]
-            solids += blade
-        else:
-            solids += [box((w - 0.02, 0.04, 0.3), ((a + b) / 2, 0, z + 0.15)) for z in np.arange(0.0, h - 0.25, 0.301)]
-        parts += _whole(solids, "fence", color, rng)
-    return Model(parts)
+            return boards + [box((w, 0.05, 0.08), (x, -half - 0.01, z)) for z in (0.3, h - 0.3)]
+        if self.fill == "level":
+            return [box((w, 0.03, 0.14), (x, -half - 0.015, z)) for z in np.arange(0.15, h, 0.16)]
+        if self.fill == "louvre":
+            blade = box((w - 2 * half, 0.09, 0.003))
+            return [moved(blade, at(x, 0, z) @ spun("x", 0.7)) for z in np.arange(0.12, h, 0.09)]
+        return [box((w - 0.02, 0.04, 0.3), (x, 0, z + 0.15)) for z in np.arange(0.0, h - 0.25, 0.301)]
 
 
-def _guard(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class Guard(Structure, name="fence/guard", weight=1.2, grain="fitting"):
     """A machine guard (EN ISO 14120): framed panels of mesh, sheet or clear plate off the floor, maybe with a door."""
-    count, h, low = int(rng.integers(1, 5)), num(rng, 1.2, 2.2), num(rng, 0.1, 0.2)
-    ws = [num(rng, 0.5, 1.5) for _ in range(count)]
-    xs = [0.0, *(float(x) for x in np.cumsum(ws))]
-    parts, half = _posts(xs, h, style, rng, ("SHS", "RHS"))
-    tube, fill = section(pick(rng, "SHS", "L", "CHS"), 0.025, style), pick(rng, "mesh", "mesh", "sheet", "clear")
-    door = int(rng.integers(count)) if chance(rng, 0.5) else -1
-    for k, w in enumerate(ws):
-        a, b = xs[k] + half, xs[k + 1] - half
-        solids = [bar((a, 0, z), (b, 0, z), tube) for z in (low, h - 0.03)]
-        solids += [bar((x, 0, low), (x, 0, h - 0.03), tube, (0, 1, 0)) for x in (a + 0.013, b - 0.013)]
-        if fill == "mesh":
-            solids += [moved(one, at(a)) for one in _mesh(w - 2 * half, low, h - 0.03, (0.05, 0.1), 0.0015)]
-        else:
-            solids.append(
-                box((b - a, 0.002 if fill == "sheet" else 0.006, h - low - 0.03), ((a + b) / 2, 0, (h + low) / 2))
-            )
-        name = "gate" if k == door else "fence"
-        parts += _whole(solids, name, "safety" if fill != "clear" else "dial", rng, 0.85)
-        if k == door:
-            parts.append(piece(box((0.03, 0.06, 0.12), (b - 0.02, -0.04, 1.0)), "bracket", "handle"))
-            parts += [
-                piece(moved(cylinder(0.012, 0, 0.07, 8), at(a, -0.03, z)), "bracket") for z in (low + 0.2, h - 0.3)
-            ]
-    return Model(parts)
+
+    count: int = whole(1, 4, "panels")
+    height: float = between(1.2, 2.2, "of a panel's top", "m")
+    low: float = between(0.1, 0.2, "height of a panel's underside", "m")
+    widths: tuple[float, ...] = each(number(0.5, 1.5), "of a panel", "m")
+    posts: Posts = Posts.of("SHS", "RHS")
+    tube: str = among(("SHS", "L", "CHS"), "section of a panel's frame")
+    fill: str = among(("mesh", "mesh", "sheet", "clear"), "of a panel")
+    doored: bool = chance(0.5, "one of the panels is a door")
+    door: int = among(lambda p: range(p.count), "which one, from 0", when=lambda p: p.doored, otherwise=-1)
+    joined: tuple[bool, ...] = each(yes(0.85), "whether a panel is one mesh")
+
+    def build(self, t: Table) -> Model:
+        h, low, tube = self.height, self.low, section(self.tube, 0.025, t.style)
+        xs = [0.0, *(float(x) for x in np.cumsum(self.widths))]
+        half = self.posts.build(t, xs, h)
+        for k, w in enumerate(self.widths):
+            a, b = xs[k] + half, xs[k + 1] - half
+            solids = [bar((a, 0, z), (b, 0, z), tube) for z in (low, h - 0.03)]
+            solids += [bar((x, 0, low), (x, 0, h - 0.03), tube, (0, 1, 0)) for x in (a + 0.013, b - 0.013)]
+            if self.fill == "mesh":
+                solids += [moved(one, at(a)) for one in _mesh(w - 2 * half, low, h - 0.03, (0.05, 0.1), 0.0015)]
+            else:
+                thick = 0.002 if self.fill == "sheet" else 0.006
+                solids.append(box((b - a, thick, h - low - 0.03), ((a + b) / 2, 0, (h + low) / 2)))
+            of = "dial" if self.fill == "clear" else "safety"
+            _whole(t, "gate" if k == self.door else "fence", solids, self.joined[k], of)
+            if k == self.door:
+                t.add("bracket", box((0.03, 0.06, 0.12), (b - 0.02, -0.04, 1.0)), of="handle")
+                hinge = cylinder(0.012, 0, 0.07, 8)
+                spread(t, "bracket", [moved(hinge, at(a, -0.03, z)) for z in (low + 0.2, h - 0.3)])
+        return t.model()
 
 
-def _barrier(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class _Hurdle(Params):
+    """A movable barrier."""
+
+    site: bool = given(False, "whether it stands in feet")
+    joined: bool = chance(0.9, _JOINED)
+    feet: tuple[str, ...] = each(
+        one_of("base plate", "foundation"), "what a foot is called", count=2, when=lambda p: p.site
+    )
+
+
+class Movable(Structure, name="fence/movable", weight=0.8, grain="fitting"):
     """Movable barriers: crowd control hoops with bars, or site fence panels in rubber or concrete feet."""
-    site, count = chance(rng, 0.5), int(rng.integers(1, 4))
-    w, h = (num(rng, 2.0, 3.0), num(rng, 1.8, 2.1)) if site else (num(rng, 1.5, 2.3), 1.1)
-    r, parts = num(rng, 0.014, 0.021), []
-    for k in range(count):
-        a, b, low = k * (w + 0.06), k * (w + 0.06) + w, 0.1 if site else 0.18
-        frame = [(a, 0, 0.02 if site else low), (a, 0, h), (b, 0, h), (b, 0, 0.02 if site else low)]
-        solids = [pipe(frame, r, style, 0.0 if site else 0.15), pipe([(a, 0, low), (b, 0, low)], r, style)]
+
+    site: bool = chance(0.5, "site fence panels, not hoops")
+    count: int = whole(1, 3, "barriers")
+    width: float = between(lambda p: 2.0 if p.site else 1.5, lambda p: 3.0 if p.site else 2.3, "of a barrier", "m")
+    height: float = between(1.8, 2.1, "of a panel", "m", when=lambda p: p.site, otherwise=1.1)
+    radius: float = between(0.014, 0.021, "of its tubes", "m")
+    barriers: tuple[_Hurdle, ...] = each(made(_Hurdle, lambda p: {"site": p.site}), "barrier")
+
+    def build(self, t: Table) -> Model:
+        site, w, h, r = self.site, self.width, self.height, self.radius
+        low = 0.1 if site else 0.18
+        foot = 0.02 if site else low
+        solids = [pipe([(0, 0, foot), (0, 0, h), (w, 0, h), (w, 0, foot)], r, t.style, 0.0 if site else 0.15)]
+        solids.append(pipe([(0, 0, low), (w, 0, low)], r, t.style))
         if site:
-            solids += [moved(one, at(a)) for one in _mesh(w, low, h, (0.1, 0.25))]
+            solids += _mesh(w, low, h, (0.1, 0.25))
         else:
-            solids += [rod((x, 0, low), (x, 0, h), 0.006, 6) for x in np.arange(a + 0.12, b - 0.05, 0.12)]
-            solids += [
-                pipe([(x, -0.25, 0.01), (x, -0.2, 0.1), (x, 0, low), (x, 0.2, 0.1), (x, 0.25, 0.01)], 0.012, style)
-                for x in (a + 0.3, b - 0.3)
-            ]
-        parts += _whole(solids, "fence", "fence", rng, 0.9)
-        if site:
-            parts += [
-                piece(box((0.25, 0.6, 0.12), (x, 0, 0.06)), pick(rng, "base plate", "foundation"), "rubber")
-                for x in (a, b)
-            ]
-    return Model(parts)
+            solids += [rod((x, 0, low), (x, 0, h), 0.006, 6) for x in np.arange(0.12, w - 0.05, 0.12)]
+            bow = ((-0.25, 0.01), (-0.2, 0.1), (0, low), (0.2, 0.1), (0.25, 0.01))
+            solids += [pipe([(x, y, z) for y, z in bow], 0.012, t.style) for x in (0.3, w - 0.3)]
+        for k, how in enumerate(self.barriers):
+            here = t.at(k * (w + 0.06))
+            _whole(here, "fence", solids, how.joined, "fence")
+            for x, name in zip((0, w), how.feet, strict=False):
+                here.add(name, box((0.25, 0.6, 0.12), (x, 0, 0.06)), of="rubber")
+        return t.model()
 
 
 # --- gates ---
 
 
-def _leaf(a: float, b: float, low: float, high: float, style: ModelingStyle, rng: np.random.Generator) -> list[Solid]:
-    """A framed leaf between two x: tubes or angles, filled with bars, mesh, sheet, slats or a diagonal."""
-    one, kind = section(pick(rng, "SHS", "CHS", "RHS", "L"), num(rng, 0.035, 0.06), style), int(rng.integers(5))
-    solids = [bar((a, 0, z), (b, 0, z), one) for z in (low, high)]
-    solids += [bar((x, 0, low), (x, 0, high), one, (0, 1, 0)) for x in (a, b)]
-    w, h = b - a, high - low
-    if kind == 0:
-        solids += [rod((x, 0, low), (x, 0, high), 0.008, 6) for x in np.arange(a + 0.12, b - 0.05, 0.12)]
-    elif kind == 1:
-        solids += [moved(m, at(a)) for m in _mesh(w, low, high, (0.06, 0.15))]
-    elif kind == 2:
-        solids.append(box((w, 0.003, h), ((a + b) / 2, 0.01, (low + high) / 2)))
-    elif kind == 3:
-        solids += [bar((a, 0, z), (b, 0, z), section("CHS", 0.03, style)) for z in np.linspace(low, high, 6)[1:-1]]
-    if kind in (1, 3, 4):
-        solids.append(bar((a, 0.0, low), (b, 0.0, high), section("flat" if kind == 1 else "CHS", 0.03, style)))
-    return solids
+class Leaf(Params):
+    """A framed leaf along x: tubes or angles, filled with bars, mesh, sheet, slats or a diagonal."""
+
+    frame: str = among(("SHS", "CHS", "RHS", "L"), "section of its frame")
+    size: float = between(0.035, 0.06, "height of that section", "m")
+    fill: str = among(("bars", "mesh", "sheet", "tubes", "diagonal"), "what it is filled with")
+
+    def solids(self, a: float, b: float, low: float, high: float, style: ModelingStyle) -> list[Solid]:
+        """The leaf between two x and two heights [m]."""
+        w, h, one, fill = b - a, high - low, section(self.frame, self.size, style), self.fill
+        solids = [bar((a, 0, z), (b, 0, z), one) for z in (low, high)]
+        solids += [bar((x, 0, low), (x, 0, high), one, (0, 1, 0)) for x in (a, b)]
+        thin = section("CHS", 0.03, style)
+        if fill == "bars":
+            solids += [rod((x, 0, low), (x, 0, high), 0.008, 6) for x in np.arange(a + 0.12, b - 0.05, 0.12)]
+        elif fill == "mesh":
+            solids += [moved(m, at(a)) for m in _mesh(w, low, high, (0.06, 0.15))]
+        elif fill == "sheet":
+            solids.append(box((w, 0.003, h), ((a + b) / 2, 0.01, (low + high) / 2)))
+        elif fill == "tubes":
+            solids += [bar((a, 0, z), (b, 0, z), thin) for z in np.linspace(low, high, 6)[1:-1]]
+        if fill not in ("bars", "sheet"):
+            solids.append(bar((a, 0, low), (b, 0, high), section("flat", 0.03, style) if fill == "mesh" else thin))
+        return solids
 
 
-def _swing(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class _Swung(Params):
+    """A leaf of a swing gate."""
+
+    angle: float = between(0.2, 1.5, "how far it stands open, if it does", "rad")
+    opened: bool = among((False, False, True), "it stands open")
+    leaf: Leaf = nested(Leaf, "leaf")
+    joined: bool = chance(0.65, _JOINED)
+    latched: bool = chance(0.6, "with a latch")
+    dropped: bool = chance(0.4, "with a drop bolt")
+
+
+class Swing(Structure, name="gate/swing", weight=1.3, grain="fitting"):
     """A swing gate of one or two leaves, open or shut, with stout posts, hinges, drop bolt and latch."""
-    leaves, w, h = int(rng.integers(1, 3)), num(rng, 0.8, 2.0), num(rng, 0.9, 2.2)
-    total, low = leaves * w + 0.02 * (leaves - 1), num(rng, 0.04, 0.12)
-    parts, half = _posts([0.0, total + 0.18], h + 0.1, style, rng, ("SHS", "SHS", "H", "CHS"))
-    for k in range(leaves):
-        swing, mirror = pick(rng, 0.0, 0.0, num(rng, 0.2, 1.5)), k == 1
-        solids = _leaf(0.06, w, low, h, style, rng)
-        pin = [moved(cylinder(0.012, -0.05, 0.07, 8), at(0.02, 0, z)) for z in (low + 0.2, h - 0.25)]
-        pin += [box((0.06, 0.012, 0.03), (0.02, 0, z)) for z in (low + 0.2, h - 0.25)]
-        pose = at(half - 0.01) @ spun("z", swing)
-        if mirror:
-            pose = at(total + 0.18 - half + 0.01) @ np.diag([-1.0, 1.0, 1.0, 1.0]) @ spun("z", swing)
-        parts += [piece(moved(p.solid, pose), "gate", "gate", "gate") for p in _whole(solids, "gate", "gate", rng)]
-        parts.append(piece(moved(merge(pin), pose), "bracket", "steel"))
-        if chance(rng, 0.6):
-            parts.append(
-                piece(
-                    moved(box((0.12, 0.05, 0.16), (w - 0.05, 0, 1.0 if h > 1.2 else 0.6 * h)), pose),
-                    "bracket",
-                    "handle",
-                )
-            )
-        if chance(rng, 0.4):
-            parts.append(
-                piece(moved(rod((w - 0.04, -0.04, 0.0), (w - 0.04, -0.04, 0.5), 0.008, 6), pose), "bolt", "fastener")
-            )
-    return Model(parts)
+
+    count: int = whole(1, 2, "leaves")
+    width: float = between(0.8, 2.0, "of a leaf", "m")
+    height: float = between(0.9, 2.2, "of a leaf's top", "m")
+    low: float = between(0.04, 0.12, "height of a leaf's underside", "m")
+    posts: Posts = nested(lambda s, _: Posts.draw(s, {"shapes": ("SHS", "SHS", "H", "CHS")}), "of the gate")
+    leaves: tuple[_Swung, ...] = each(made(_Swung), "leaf")
+
+    def build(self, t: Table) -> Model:
+        w, h, low = self.width, self.height, self.low
+        total = self.count * w + 0.02 * (self.count - 1)
+        half = self.posts.build(t, [0.0, total + 0.18], h + 0.1)
+        levels = (low + 0.2, h - 0.25)
+        pins = [moved(cylinder(0.012, -0.05, 0.07, 8), at(0.02, 0, z)) for z in levels]
+        pins += [box((0.06, 0.012, 0.03), (0.02, 0, z)) for z in levels]
+        for k, one in enumerate(self.leaves):
+            here = t.at(half - 0.01) if k == 0 else t.at(total + 0.18 - half + 0.01).moved(np.diag([-1.0, 1, 1, 1]))
+            here = here.spun("z", one.angle if one.opened else 0.0)
+            _whole(here, "gate", one.leaf.solids(0.06, w, low, h, t.style), one.joined, "gate")
+            here.add("bracket", *pins)
+            if one.latched:
+                z = 1.0 if h > 1.2 else 0.6 * h
+                here.add("bracket", box((0.12, 0.05, 0.16), (w - 0.05, 0, z)), of="handle")
+            if one.dropped:
+                here.add("bolt", rod((w - 0.04, -0.04, 0.0), (w - 0.04, -0.04, 0.5), 0.008, 6), fine=False)
+        return t.model()
 
 
-def _sliding(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class Sliding(Structure, name="gate/sliding", grain="fitting"):
     """A sliding gate: a leaf on grooved wheels and a floor rail, or cantilevered on roller boxes, with guide portal."""
-    w, h, r = num(rng, 1.8, 4.0), num(rng, 1.0, 2.0), num(rng, 0.04, 0.07)
-    low = 1.9 * r + 0.03
-    parts = _whole(_leaf(0, w, low + 0.03, h, style, rng), "gate", "gate", rng)
-    if chance(rng, 0.6):
-        parts.append(piece(bar((-0.5, 0, 0.01), (w + 0.8 * w, 0, 0.01), section("CHS", 0.02, style)), "beam"))
-        for x in (0.15, w - 0.15):
-            parts += [
-                piece(moved(m, at(x, 0, 0.02 + 0.78 * r)), "caster", c) for m, c in wheel("groove", r, 0.6 * r, style)
-            ]
-            parts.append(
-                piece(box((1.6 * r, 0.5 * r + 0.02, 0.3 * r + 0.04), (x, 0, low + 0.01 - 0.15 * r)), "bracket")
-            )
-    else:
-        parts.append(
-            piece(
-                bar((-0.3 * w, 0, low - 0.02), (w, 0, low - 0.02), section("RHS", 0.08, style)), "gate", "gate", "gate"
-            )
-        )
-        for x in (-0.25 * w, 0.2):
-            parts.append(piece(box((0.3, 0.16, low - 0.06), (x, 0, (low - 0.06) / 2)), "foundation", "concrete"))
-    post = section("SHS", 0.08, style)
-    for s in (-1, 1):
-        parts.append(piece(bar((0.3, s * 0.14, 0), (0.3, s * 0.14, h + 0.12), post), "post", "fence"))
-        parts.append(piece(moved(cylinder(0.03, h - 0.05, h + 0.12, 12), at(0.3, s * 0.065)), "caster", "rubber"))
-    parts.append(piece(box((0.08, 0.36, 0.08), (0.3, 0, h + 0.16)), "beam", "fence"))
-    parts.append(piece(bar((w + 0.09, 0, 0), (w + 0.09, 0, h + 0.1), section("SHS", 0.12, style)), "post", "fence"))
-    return Model(parts)
+
+    width: float = between(1.8, 4.0, "of the leaf", "m")
+    height: float = between(1.0, 2.0, "of the leaf's top", "m")
+    radius: float = between(0.04, 0.07, "of a wheel", "m")
+    leaf: Leaf = nested(Leaf, "leaf")
+    joined: bool = chance(0.65, _JOINED)
+    wheeled: bool = chance(0.6, "on wheels, not cantilevered")
+
+    def build(self, t: Table) -> Model:
+        w, h, r, style = self.width, self.height, self.radius, t.style
+        low = 1.9 * r + 0.03
+        _whole(t, "gate", self.leaf.solids(0, w, low + 0.03, h, style), self.joined, "gate")
+        if self.wheeled:
+            t.add("beam", bar((-0.5, 0, 0.01), (w + 0.8 * w, 0, 0.01), section("CHS", 0.02, style)))
+            for x in (0.15, w - 0.15):
+                for solid, of in wheel("groove", r, 0.6 * r, style):
+                    t.at(x, 0, 0.02 + 0.78 * r).add("caster", solid, of=of)
+                fork = box((1.6 * r, 0.5 * r + 0.02, 0.3 * r + 0.04), (x, 0, low + 0.01 - 0.15 * r))
+                t.add("bracket", fork)
+        else:
+            tail = bar((-0.3 * w, 0, low - 0.02), (w, 0, low - 0.02), section("RHS", 0.08, style))
+            t.bundled("gate").add("gate", tail)
+            tall = low - 0.06
+            spread(t, "foundation", [box((0.3, 0.16, tall), (x, 0, tall / 2)) for x in (-0.25 * w, 0.2)])
+        post = section("SHS", 0.08, style)
+        for s in BOTH:
+            t.add("post", bar((0.3, s * 0.14, 0), (0.3, s * 0.14, h + 0.12), post), of="fence")
+            t.at(0.3, s * 0.065).add("caster", cylinder(0.03, h - 0.05, h + 0.12, 12))
+        t.add("beam", box((0.08, 0.36, 0.08), (0.3, 0, h + 0.16)), of="fence")
+        t.add("post", bar((w + 0.09, 0, 0), (w + 0.09, 0, h + 0.1), section("SHS", 0.12, style)), of="fence")
+        return t.model()
 
 
-def _boom(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class Boom(Structure, name="gate/boom", weight=0.8, grain="fitting"):
     """A boom barrier: a housing on a plinth, an arm with or without skirt, a fork post to rest on; up or down."""
-    long, h, lift = num(rng, 2.0, 4.5), num(rng, 0.85, 1.05), pick(rng, 0.0, 0.0, num(rng, 0.3, 1.4))
-    parts = [piece(box((0.45, 0.45, 0.1), (0, 0, 0.05)), "foundation", "concrete")]
-    parts.append(
-        piece(box((0.32, 0.28, h + 0.1), (0, 0, 0.1 + (h + 0.1) / 2)), pick(rng, "control panel", "post"), "safety")
-    )
-    arm = bar((-0.3, 0, 0), (long, 0, 0), section(pick(rng, "CHS", "RHS", "SHS"), 0.08, style))
-    solids = [arm, along("y", cylinder(0.1, -0.04, 0.04, few_sides(style, 0.1)))]
-    if chance(rng, 0.4):
-        solids += [rod((x, 0, -0.03), (x, 0, -0.6), 0.006, 6) for x in np.arange(0.3, long, 0.15)]
-        solids.append(rod((0.3, 0, -0.6), (long - 0.05, 0, -0.6), 0.008, 6))
-    if chance(rng, 0.4):
-        solids.append(box((0.2, 0.12, 0.2), (-0.35, 0, 0)))
-    pose = at(0.05, -0.18, h) @ spun("y", -lift)
-    parts += [piece(moved(p.solid, pose), "gate", "gate", "gate") for p in _whole(solids, "gate", "gate", rng)]
-    if lift == 0.0:
-        x = long - 0.1
-        parts.append(piece(box((0.08, 0.08, h - 0.045), (x, -0.18, (h - 0.045) / 2)), "post", "safety"))
-    return Model(parts)
+
+    length: float = between(2.0, 4.5, "of the arm", "m")
+    height: float = between(0.85, 1.05, "of the arm", "m")
+    angle: float = between(0.3, 1.4, "how far the arm is up, if it is", "rad")
+    lifted: bool = among((False, False, True), "the arm is up")
+    housing: str = among(("control panel", "post"), "what the housing is called")
+    arm: str = among(("CHS", "RHS", "SHS"), "section of the arm")
+    skirted: bool = chance(0.4, "a skirt of bars below the arm")
+    weighted: bool = chance(0.4, "a counterweight")
+    joined: bool = chance(0.65, _JOINED)
+
+    def build(self, t: Table) -> Model:
+        long, h = self.length, self.height
+        t.add("foundation", box((0.45, 0.45, 0.1), (0, 0, 0.05)))
+        t.add(self.housing, box((0.32, 0.28, h + 0.1), (0, 0, 0.1 + (h + 0.1) / 2)), of="safety")
+        solids = [bar((-0.3, 0, 0), (long, 0, 0), section(self.arm, 0.08, t.style))]
+        solids.append(along("y", cylinder(0.1, -0.04, 0.04, few_sides(t.style, 0.1))))
+        if self.skirted:
+            solids += [rod((x, 0, -0.03), (x, 0, -0.6), 0.006, 6) for x in np.arange(0.3, long, 0.15)]
+            solids.append(rod((0.3, 0, -0.6), (long - 0.05, 0, -0.6), 0.008, 6))
+        if self.weighted:
+            solids.append(box((0.2, 0.12, 0.2), (-0.35, 0, 0)))
+        lift = -self.angle if self.lifted else 0.0
+        _whole(t.at(0.05, -0.18, h).spun("y", lift), "gate", solids, self.joined, "gate")
+        if not self.lifted:
+            tall = h - 0.045
+            t.add("post", box((0.08, 0.08, tall), (long - 0.1, -0.18, tall / 2)), of="safety")
+        return t.model()
 
 
-def _turnstile(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+def _tall(p: Any) -> bool:
+    return bool(p.tall)
+
+
+class Turnstile(Structure, name="gate/turnstile", weight=0.7, grain="fitting"):
     """A turnstile: full height with combs in a cage, waist high with three arms, or a kissing gate of tubes."""
-    parts: list[Part] = []
-    if chance(rng, 0.6):
-        h, r = num(rng, 1.9, 2.3), num(rng, 0.55, 0.7)
-        n = few_sides(style, 0.05, 14)
-        solids = [cylinder(0.05, 0.0, h, n)]
-        wings = int(rng.integers(3, 5))
-        for k in range(wings):
-            solids += [
-                moved(rod((0.04, 0, z), (r, 0, z), 0.018, 8), spun("z", 2 * np.pi * k / wings))
-                for z in np.linspace(0.25, h - 0.2, 9)
-            ]
-        parts += _whole(solids, "gate", "gate", rng)
-        a = np.linspace(0.5, 2.6, 9)
-        cage = [
-            rod(
-                (1.06 * r * np.cos(t), 1.06 * r * np.sin(t), 0),
-                (1.06 * r * np.cos(t), 1.06 * r * np.sin(t), h),
-                0.014,
-                8,
-            )
-            for t in a
-        ]
-        parts += _whole(cage, "fence", "fence", rng)
-        parts.append(
-            piece(
-                slab_xy([(-1.1 * r, -0.2), (1.1 * r, -0.2), (1.1 * r, 1.15 * r), (-1.1 * r, 1.15 * r)], h, h + 0.08),
-                "plate",
-                "fence",
-            )
-        )
-        parts += [piece(box((0.08, 0.08, h), (s * 1.05 * r, -0.15, h / 2)), "post", "fence") for s in (-1, 1)]
-        return Model(parts)
-    parts.append(piece(box((0.25, 0.9, 0.98), (0, 0, 0.49)), pick(rng, "post", "gate"), "clamp"))
-    hub = along("x", dome(0.08, 0.06, 0.0, few_sides(style, 0.08, 16)), 0.125, 0, 0.85)
-    arms = [
-        pipe([(0.15, 0, 0.85), (0.25, 0.5 * np.cos(t), 0.85 + 0.45 * np.sin(t))], 0.019, style)
-        for t in (np.pi / 2 + 2.094, np.pi / 2 + 4.189)
-    ]
-    arms.append(pipe([(0.15, 0, 0.85), (0.65, 0, 0.87)], 0.019, style))
-    parts += _whole([hub, *arms], "gate", "trim", rng)
-    parts.append(piece(box((0.04, 0.9, 0.98), (0.8, 0, 0.49)), "fence", "clamp"))
-    return Model(parts)
+
+    tall: bool = chance(0.6, "of full height, not waist high")
+    height: float = between(1.9, 2.3, "of a tall one", "m", when=_tall)
+    radius: float = between(0.55, 0.7, "of the combs", "m", when=_tall)
+    wings: int = whole(3, 4, "combs", when=_tall)
+    cabinet: str = among(("post", "gate"), "what the cabinet is called", when=lambda p: not p.tall)
+    joined: bool = chance(0.65, "what turns is one mesh")
+    caged: bool = chance(0.65, "the cage is one mesh", when=_tall)
+
+    def build(self, t: Table) -> Model:
+        if self.tall:
+            return self._full(t)
+        t.add(self.cabinet, box((0.25, 0.9, 0.98), (0, 0, 0.49)), of="clamp")
+        solids = [along("x", dome(0.08, 0.06, 0.0, few_sides(t.style, 0.08, 16)), 0.125, 0, 0.85)]
+        ends = [(0.25, 0.5 * np.cos(a), 0.85 + 0.45 * np.sin(a)) for a in (np.pi / 2 + 2.094, np.pi / 2 + 4.189)]
+        solids += [pipe([(0.15, 0, 0.85), end], 0.019, t.style) for end in (*ends, (0.65, 0, 0.87))]
+        _whole(t, "gate", solids, self.joined, "trim")
+        t.add("fence", box((0.04, 0.9, 0.98), (0.8, 0, 0.49)), of="clamp")
+        return t.model()
+
+    def _full(self, t: Table) -> Model:
+        h, r = self.height, self.radius
+        bars = [rod((0.04, 0, z), (r, 0, z), 0.018, 8) for z in np.linspace(0.25, h - 0.2, 9)]
+        turns = [spun("z", 2 * np.pi * k / self.wings) for k in range(self.wings)]
+        combs = [moved(one, turn) for turn in turns for one in bars]
+        _whole(t, "gate", [cylinder(0.05, 0.0, h, few_sides(t.style, 0.05, 14)), *combs], self.joined, "gate")
+        spots = [(1.06 * r * float(np.cos(a)), 1.06 * r * float(np.sin(a))) for a in np.linspace(0.5, 2.6, 9)]
+        _whole(t, "fence", [rod((x, y, 0), (x, y, h), 0.014, 8) for x, y in spots], self.caged, "fence")
+        roof = [(-1.1 * r, -0.2), (1.1 * r, -0.2), (1.1 * r, 1.15 * r), (-1.1 * r, 1.15 * r)]
+        t.add("plate", slab_xy(roof, h, h + 0.08), of="fence")
+        spread(t, "post", [box((0.08, 0.08, h), (s * 1.05 * r, -0.15, h / 2)) for s in BOTH], of="fence")
+        return t.model()
 
 
-def _safety_gate(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class RailingGate(Structure, name="gate/railing", grain="fitting"):
     """A self-closing gate in a railing (ISO 14122-3): a bow of tube or a framed leaf on spring hinges between posts."""
-    w, h, r = num(rng, 0.6, 1.1), num(rng, 0.95, 1.1), 0.021
-    xs = [-num(rng, 0.5, 1.2), 0.0, w + 0.08, w + 0.08 + num(rng, 0.5, 1.2)]
-    parts: list[Part] = []
-    for x in xs:
-        plates, low = base(x, 0, (0.1, 0.1), style, rng)
-        parts += [*plates, piece(pipe([(x, 0, low), (x, 0, h)], r, style), "post", "safety")]
-    for a, b in ((xs[0], xs[1]), (xs[2], xs[3])):
-        parts += [piece(pipe([(a, 0, z), (b, 0, z)], r, style), "railing", "safety") for z in (0.5 * h, h)]
-    bow = [(0.07, 0, h - 0.02), (w, 0, h - 0.02), (w, 0, 0.45 * h), (0.07, 0, 0.45 * h)]
-    solids = [
-        pipe([*bow, (0.07, 0, h - 0.036)], 0.016, style),
-        pipe([(0.07, 0, 0.7 * h), (w, 0, 0.7 * h)], 0.012, style),
-    ]
-    if chance(rng, 0.3):
-        solids.append(box((w - 0.1, 0.004, 0.4 * h), (w / 2 + 0.03, 0, 0.7 * h)))
-    swing = pick(rng, 0.0, num(rng, 0.3, 1.4))
-    pose = spun("z", swing)
-    parts += [piece(moved(p.solid, pose), "gate", "gate", "gate") for p in _whole(solids, "gate", "gate", rng)]
-    for z in (0.5 * h, h - 0.06):
-        hinge = merge([ring(r, 1.5 * r, z - 0.03, z + 0.03, 12), moved(box((0.06, 0.012, 0.05), (0.05, 0, z)), pose)])
-        parts.append(piece(hinge, "bracket", "clamp"))
-    stop = [at(w + 0.08 - r - 0.001, -0.012, 0.7 * h) @ spun("y", -np.pi / 2)]
-    return Model([*parts, *bolted(stop, 0.008, style, 0.005)])
+
+    width: float = between(0.6, 1.1, "of the gate", "m")
+    height: float = between(0.95, 1.1, "of the railing", "m")
+    left: float = between(0.5, 1.2, "length of railing before the hinges", "m")
+    right: float = between(0.5, 1.2, "length of railing beyond the gate", "m")
+    bases: tuple[Base, ...] = bases(4)
+    sheeted: bool = chance(0.3, "a sheet in the gate")
+    angle: float = between(0.3, 1.4, "how far it stands open, if it does", "rad")
+    opened: bool = among((False, True), "it stands open")
+    joined: bool = chance(0.65, _JOINED)
+
+    def build(self, t: Table) -> Model:
+        w, h, r, style = self.width, self.height, 0.021, t.style
+        xs = [-self.left, 0.0, w + 0.08, w + 0.08 + self.right]
+        for x, base in zip(xs, self.bases, strict=True):
+            low = base.build(t.at(x), 0.1, 0.1)
+            t.add("post", pipe([(x, 0, low), (x, 0, h)], r, style), of="safety")
+        for a, b in (xs[:2], xs[2:]):
+            spread(t, "railing", [pipe([(a, 0, z), (b, 0, z)], r, style) for z in (0.5 * h, h)])
+        bow = [(0.07, 0, h - 0.02), (w, 0, h - 0.02), (w, 0, 0.45 * h), (0.07, 0, 0.45 * h), (0.07, 0, h - 0.036)]
+        solids = [pipe(bow, 0.016, style), pipe([(0.07, 0, 0.7 * h), (w, 0, 0.7 * h)], 0.012, style)]
+        if self.sheeted:
+            solids.append(box((w - 0.1, 0.004, 0.4 * h), (w / 2 + 0.03, 0, 0.7 * h)))
+        pose = spun("z", self.angle if self.opened else 0.0)
+        _whole(t.moved(pose), "gate", solids, self.joined, "gate")
+        for z in (0.5 * h, h - 0.06):
+            lug = moved(box((0.06, 0.012, 0.05), (0.05, 0, z)), pose)
+            t.add("bracket", merge([ring(r, 1.5 * r, z - 0.03, z + 0.03, 12), lug]), of="clamp")
+        bolts(t, [at(w + 0.08 - r - 0.001, -0.012, 0.7 * h) @ spun("y", -np.pi / 2)], 0.008, 0.005)
+        return t.model()
 
 
-FENCES: tuple[Family, ...] = (
-    floor_family("fence/palisade", _palisade),
-    floor_family("fence/welded mesh", _folded_mesh, 1.2),
-    floor_family("fence/chain link", _chain_link),
-    floor_family("fence/screen", _sheeted),
-    floor_family("fence/guard", _guard, 1.2, "fitting"),
-    floor_family("fence/movable", _barrier, 0.8, "fitting"),
-    floor_family("gate/swing", _swing, 1.3, "fitting"),
-    floor_family("gate/sliding", _sliding, 1.0, "fitting"),
-    floor_family("gate/boom", _boom, 0.8, "fitting"),
-    floor_family("gate/turnstile", _turnstile, 0.7, "fitting"),
-    floor_family("gate/railing", _safety_gate, 1.0, "fitting"),
+FENCES = families_of(
+    Palisade, WeldedMesh, ChainLink, Screen, Guard, Movable, Swing, Sliding, Boom, Turnstile, RailingGate
 )

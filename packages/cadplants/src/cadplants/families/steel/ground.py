@@ -5,131 +5,125 @@ from __future__ import annotations
 import numpy as np
 
 from cadgraph.model.scene import Floats
-from cadplants.families.chance import pick
+from cadplants.builder.device import families_of
+from cadplants.builder.params import among, between, chance, whole
+from cadplants.builder.table import Table
 from cadplants.families.steel.shape import (
-    chance,
+    BOTH,
+    Structure,
+    each,
     few_sides,
-    floor_family,
-    num,
-    piece,
+    of_form,
+    one_of,
     rect,
     slab_xy,
     slab_xz,
+    spread,
 )
-from cadplants.family import Family, Model, Part
-from cadplants.mesh_ops import Solid, merge, moved
-from cadplants.modeling_style import ModelingStyle
+from cadplants.family import Model
+from cadplants.mesh_ops import Solid
 from cadplants.polygon import circle
 from cadplants.primitives import box, cylinder, turned
-from cadplants.transforms import at, spun
 
 __all__ = ["GROUNDS"]
 
 
-def _slabs(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class Slabs(Structure, name="ground/slabs", weight=1.3, grain="fitting"):
     """Ground in fields: slabs with joints, paving stones, falls to a gutter, a ramp, holes."""
-    a, b, t, kind = num(rng, 1.5, 5.0), num(rng, 1.2, 4.0), pick(rng, 0.02, 0.1, 0.2, 0.4), int(rng.integers(5))
-    parts: list[Part] = []
-    if kind == 0:
-        m, n = int(rng.integers(1, 4)), int(rng.integers(1, 4))
-        for i in range(m):
-            for j in range(n):
-                solid = box((a / m - 0.012, b / n - 0.012, t), ((i + 0.5) * a / m, (j + 0.5) * b / n, -t / 2))
-                parts.append(piece(solid, "ground", pick(rng, "ground", "concrete")))
-    elif kind == 1:
-        m, n, solids = int(a / 0.4), int(b / 0.3), []
-        for j in range(min(n, 8)):
-            solids += [box((0.39, 0.29, 0.08), (0.4 * i + 0.2 * (j % 2), 0.3 * j, -0.04)) for i in range(min(m, 10))]
-        parts.append(piece(merge(solids), "ground", "concrete"))
-        parts.append(
-            piece(
-                box(
-                    (0.4 * min(m, 10) + 0.2, 0.3 * min(n, 8), 0.15),
-                    (0.2 * min(m, 10) - 0.1, 0.15 * min(n, 8) - 0.15, -0.155),
-                ),
-                "ground",
-                "ground",
-            )
-        )
-    elif kind == 2:
-        for s in (-1, 1):
-            shape = [(0, -t), (b / 2, -t), (b / 2, 0.05), (0, 0.0)]
-            parts.append(piece(moved(slab_xz(shape, a), spun("z", s * np.pi / 2) @ at(0.08)), "ground", "concrete"))
-        parts.append(
-            piece(
-                slab_xz(
-                    [
-                        (-0.08, -0.12),
-                        (0.08, -0.12),
-                        (0.08, 0.0),
-                        (0.05, 0.0),
-                        (0.05, -0.08),
-                        (-0.05, -0.08),
-                        (-0.05, 0.0),
-                        (-0.08, 0.0),
-                    ],
-                    a,
-                ),
-                "foundation",
-                "clamp",
-            )
-        )
-        parts[-1] = piece(moved(parts[-1].solid, spun("z", np.pi / 2)), "foundation", "clamp")
-    elif kind == 3:
-        parts.append(piece(box((a, b, t), (0, 0, -t / 2)), "ground", "ground"))
-        shape = [(a / 2, -t), (a / 2 + 1.2, -t), (a / 2, 0)]
-        parts.append(piece(slab_xz(shape, 0.5 * b), "ground", "concrete"))
-    else:
-        outline = np.array([[0, 0], [a, 0], [a, 0.6 * b], [0.6 * a, 0.6 * b], [0.6 * a, b], [0, b]])
-        holes = (circle(0.12, few_sides(style, 0.12, 24), (0.3 * a, 0.3 * b)), rect(0.3, 0.3, 0.4 * a, 0.75 * b))
-        parts.append(piece(slab_xy(outline, -t, 0, holes if chance(rng, 0.6) else ()), "ground", "concrete"))
-    if chance(rng, 0.4) and kind in (0, 3):
-        size = num(rng, 0.3, 0.8)
-        parts.append(piece(box((size, size, 0.2), (0.25 * a, 0.25 * b, 0.1)), "foundation", "concrete"))
-    return Model(parts)
+
+    length: float = between(1.5, 5.0, "along x", "m")
+    width: float = between(1.2, 4.0, "along y", "m")
+    thick: float = among((0.02, 0.1, 0.2, 0.4), "thickness of a slab", "m")
+    form: str = among(("fields", "paving", "gutter", "ramp", "holes"), "what it is")
+    fields_along: int = whole(1, 3, "fields along x", when=of_form("fields"))
+    fields_across: int = whole(1, 3, "fields along y", when=of_form("fields"))
+    materials: tuple[str, ...] = each(
+        one_of("ground", "concrete"), "kind of material of a field", count=lambda p: p.fields_along * p.fields_across
+    )
+    holed: bool = chance(0.6, "with holes", when=of_form("holes"))
+    footed: bool = chance(0.4, "a foundation on it, if of fields or with a ramp")
+    foot: float = between(
+        0.3, 0.8, "side of the foundation", "m", when=lambda p: p.footed and p.form in ("fields", "ramp")
+    )
+
+    def build(self, t: Table) -> Model:
+        a, b, thick = self.length, self.width, self.thick
+        if self.form == "fields":
+            m, n = self.fields_along, self.fields_across
+            for k, of in enumerate(self.materials):
+                middle = (k // n + 0.5) * a / m, (k % n + 0.5) * b / n, -thick / 2
+                t.add("ground", box((a / m - 0.012, b / n - 0.012, thick), middle), of=of)
+        elif self.form == "paving":
+            m, n = min(int(a / 0.4), 10), min(int(b / 0.3), 8)
+            spots = [(0.4 * i + 0.2 * (j % 2), 0.3 * j, -0.04) for j in range(n) for i in range(m)]
+            t.add("ground", *(box((0.39, 0.29, 0.08), spot) for spot in spots), of="concrete")
+            bed = (0.2 * m - 0.1, 0.15 * n - 0.15, -0.155)
+            t.add("ground", box((0.4 * m + 0.2, 0.3 * n, 0.15), bed))
+        elif self.form == "gutter":
+            fall = slab_xz([(0, -thick), (b / 2, -thick), (b / 2, 0.05), (0, 0.0)], a)
+            for s in BOTH:
+                t.spun("z", s * np.pi / 2).at(0.08).add("ground", fall, of="concrete")
+            gutter = [(-0.08, -0.12), (0.08, -0.12), (0.08, 0.0), (0.05, 0.0), (0.05, -0.08), (-0.05, -0.08)]
+            gutter += [(-0.05, 0.0), (-0.08, 0.0)]
+            t.spun("z", np.pi / 2).add("foundation", slab_xz(gutter, a), of="clamp")
+        elif self.form == "ramp":
+            t.add("ground", box((a, b, thick), (0, 0, -thick / 2)))
+            ramp = slab_xz([(a / 2, -thick), (a / 2 + 1.2, -thick), (a / 2, 0)], 0.5 * b)
+            t.add("ground", ramp, of="concrete")
+        else:
+            edge = np.array([[0, 0], [a, 0], [a, 0.6 * b], [0.6 * a, 0.6 * b], [0.6 * a, b], [0, b]])
+            n = few_sides(t.style, 0.12, 24)
+            holes = (circle(0.12, n, (0.3 * a, 0.3 * b)), rect(0.3, 0.3, 0.4 * a, 0.75 * b))
+            t.add("ground", slab_xy(edge, -thick, 0, holes if self.holed else ()), of="concrete")
+        if self.foot:
+            t.add("foundation", box((self.foot, self.foot, 0.2), (0.25 * a, 0.25 * b, 0.1)))
+        return t.model()
 
 
-def _grounds(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class Relief(Structure, name="ground/relief", grain="fitting"):
     """Ground with an edge or relief: gravel in kerbs, a grass mound, a round pad, a road, a terrain patch."""
-    a, b, kind = num(rng, 1.5, 4.0), num(rng, 1.2, 3.0), int(rng.integers(4))
-    parts: list[Part] = []
-    if kind == 0:
-        parts.append(piece(box((a, b, 0.1), (0, 0, -0.05)), "ground", "ground"))
-        kerb = pick(rng, 0.06, 0.1, 0.15)
-        solids = [box((a + 2 * kerb, kerb, 0.25), (0, s * (b / 2 + kerb / 2), -0.05)) for s in (-1, 1)]
-        solids += [box((kerb, b, 0.25), (s * (a / 2 + kerb / 2), 0, -0.05)) for s in (-1, 1)]
-        parts += [piece(one, "foundation", "concrete") for one in solids]
-    elif kind == 1:
-        r = a / 2
-        parts.append(
-            piece(
-                turned([(r, -0.1), (r, 0.0), (0.9 * r, pick(rng, 0.0, 0.1))], few_sides(style, r, 40)),
-                "ground",
-                "ground",
-            )
-        )
-        if chance(rng, 0.5):
-            post = cylinder(0.05, 0.0, 1.0, 12)
-            parts.append(piece(post, "post", "fence"))
-    elif kind == 2:
-        xs = np.linspace(-b / 2, b / 2, 9)
-        top = 0.03 * (1 - (2 * xs / b) ** 2)
-        shape = [
-            (-b / 2, -0.2),
-            (b / 2, -0.2),
-            *((float(x), float(z)) for x, z in zip(xs[::-1], top[::-1], strict=True)),
-        ]
-        parts.append(piece(slab_xz(shape, a), "ground", "ground"))
-        for s in (-1, 1):
-            parts.append(piece(box((0.15, a, 0.32), (s * (b / 2 + 0.075), 0, -0.04)), "foundation", "concrete"))
-            parts.append(piece(box((0.8, a, 0.1), (s * (b / 2 + 0.55), 0, 0.06)), "ground", "concrete"))
-    else:
-        n = int(rng.integers(5, 12))
-        xs, ys = np.linspace(0, a, n), np.linspace(0, b, n)
-        x, y = np.meshgrid(xs, ys, indexing="ij")
-        z = num(rng, 0.02, 0.12) * rng.standard_normal((n, n))
-        parts.append(piece(_terrain(x, y, z - z.min(), -0.3), "ground", "ground"))
-    return Model(parts)
+
+    length: float = between(1.5, 4.0, "along x, or diameter", "m")
+    width: float = between(1.2, 3.0, "along y", "m")
+    form: str = among(("kerbs", "pad", "road", "patch"), "what it is")
+    kerb: float = among((0.06, 0.1, 0.15), "width of a kerb", "m", when=of_form("kerbs"))
+    rise: float = among((0.0, 0.1), "of the round pad", "m", when=of_form("pad"))
+    post: bool = chance(0.5, "a post on the round pad", when=of_form("pad"))
+    points: int = whole(5, 11, "points of the patch each way", when=of_form("patch"))
+    rough: float = between(0.02, 0.12, "standard deviation of the patch's heights", "m", when=of_form("patch"))
+    heights: tuple[float, ...] = each(
+        lambda rng, _: float(rng.standard_normal()),
+        "of a point / the standard deviation",
+        count=lambda p: p.points**2,
+        when=of_form("patch"),
+    )
+
+    def build(self, t: Table) -> Model:
+        a, b = self.length, self.width
+        if self.form == "kerbs":
+            t.add("ground", box((a, b, 0.1), (0, 0, -0.05)))
+            k = self.kerb
+            kerbs = [box((a + 2 * k, k, 0.25), (0, s * (b / 2 + k / 2), -0.05)) for s in BOTH]
+            kerbs += [box((k, b, 0.25), (s * (a / 2 + k / 2), 0, -0.05)) for s in BOTH]
+            spread(t, "foundation", kerbs)
+        elif self.form == "pad":
+            r = a / 2
+            t.add("ground", turned([(r, -0.1), (r, 0.0), (0.9 * r, self.rise)], few_sides(t.style, r, 40)))
+            if self.post:
+                t.add("post", cylinder(0.05, 0.0, 1.0, 12), of="fence")
+        elif self.form == "road":
+            xs = np.linspace(-b / 2, b / 2, 9)
+            top = np.column_stack([xs, 0.03 * (1 - (2 * xs / b) ** 2)])[::-1]
+            t.add("ground", slab_xz([(-b / 2, -0.2), (b / 2, -0.2), *top], a))
+            for s in BOTH:
+                t.add("foundation", box((0.15, a, 0.32), (s * (b / 2 + 0.075), 0, -0.04)))
+                t.add("ground", box((0.8, a, 0.1), (s * (b / 2 + 0.55), 0, 0.06)), of="concrete")
+        else:
+            n = self.points
+            x, y = np.meshgrid(np.linspace(0, a, n), np.linspace(0, b, n), indexing="ij")
+            z = self.rough * np.array(self.heights).reshape(n, n)
+            t.add("ground", _terrain(x, y, z - z.min(), -0.3))
+        return t.model()
 
 
 def _terrain(x: Floats, y: Floats, z: Floats, low: float) -> Solid:
@@ -149,7 +143,4 @@ def _terrain(x: Floats, y: Floats, z: Floats, low: float) -> Solid:
     return Solid(np.concatenate([top, bottom]), faces)
 
 
-GROUNDS: tuple[Family, ...] = (
-    floor_family("ground/slabs", _slabs, 1.3, "fitting"),
-    floor_family("ground/relief", _grounds, 1.0, "fitting"),
-)
+GROUNDS = families_of(Slabs, Relief)

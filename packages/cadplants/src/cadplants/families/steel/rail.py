@@ -5,24 +5,30 @@ from __future__ import annotations
 import numpy as np
 
 from cadgraph.model.scene import Floats
-from cadplants.families.chance import pick
+from cadplants.builder.device import families_of
+from cadplants.builder.params import Params, among, between, chance, nested, whole
+from cadplants.builder.table import Table, outline
 from cadplants.families.steel.shape import (
+    BOTH,
+    Base,
+    Structure,
     bar,
-    base,
-    bolted,
-    chance,
-    drawn,
+    bases,
+    bolts,
+    each,
     few_sides,
-    floor_family,
-    num,
-    piece,
+    made,
+    of_form,
+    one_of,
     pipe,
     ribbon,
     section,
     slab_xy,
     slab_xz,
+    span_of,
+    spread,
 )
-from cadplants.family import Family, Model, Part
+from cadplants.family import Model
 from cadplants.mesh_ops import Solid, merge, moved, sweep
 from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle
@@ -32,79 +38,105 @@ from cadplants.transforms import at, spun
 __all__ = ["RAILS"]
 
 
-def _floor(length: float, rng: np.random.Generator) -> tuple[list[Part], float]:
-    """What a railing along x from 0 stands on: the floor, a kerb, a slab, an edge beam; and the height of its top."""
-    kind = int(rng.integers(4))
-    if kind == 0:
-        return [], 0.0
-    if kind == 1:
-        return [piece(box((length + 0.2, 0.2, 0.15), (length / 2, 0, 0.075)), "foundation", "concrete")], 0.15
-    if kind == 2:
-        return [piece(box((length + 0.3, 1.2, 0.2), (length / 2, 0.5, 0.1)), "ground", "concrete")], 0.2
-    return [piece(box((length + 0.1, 0.1, 0.2), (length / 2, 0, 0.1)), "beam")], 0.2
+class _Ground(Params):
+    """What a railing along x from 0 stands on."""
+
+    form: str = among(("floor", "kerb", "slab", "edge beam"), "what it is")
+
+    def build(self, t: Table, length: float) -> float:
+        """Puts it down; the height of its top [m]."""
+        if self.form == "kerb":
+            t.add("foundation", box((length + 0.2, 0.2, 0.15), (length / 2, 0, 0.075)))
+        elif self.form == "slab":
+            t.add("ground", box((length + 0.3, 1.2, 0.2), (length / 2, 0.5, 0.1)), of="concrete")
+        elif self.form == "edge beam":
+            t.add("beam", box((length + 0.1, 0.1, 0.2), (length / 2, 0, 0.1)))
+        return {"floor": 0.0, "kerb": 0.15}.get(self.form, 0.2)
 
 
-def _kick(length: float, z: float, rng: np.random.Generator) -> list[Part]:
+class _Kick(Params):
     """A toe plate 10 mm over the floor (ISO 14122-3), plain or folded, or none."""
-    if chance(rng, 0.4):
-        return []
-    h, t = pick(rng, 0.1, 0.12, 0.15), pick(rng, 0.003, 0.005)
-    return [piece(box((length, t, h), (length / 2, 0.025, z + 0.01 + h / 2)), "railing", "safety", "railing")]
+
+    without: bool = chance(0.4, "there is none")
+    high: float = among((0.1, 0.12, 0.15), "height", "m", when=lambda p: not p.without)
+    thick: float = among((0.003, 0.005), "thickness", "m", when=lambda p: not p.without)
+
+    def build(self, t: Table, length: float) -> None:
+        """Puts it down on z = 0."""
+        if not self.without:
+            solid = box((length, self.thick, self.high), (length / 2, 0.025, 0.01 + self.high / 2))
+            t.bundled("railing").add("railing", solid)
 
 
-def _bay(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class BentBays(Structure, name="railing/bent bays", weight=1.2):
     """Welded bays of bent tube: bows from foot to foot with rails in them, on base plates (ISO 14122-3)."""
-    count, w = int(rng.integers(1, 4)), num(rng, 0.8, 2.0)
-    h, r = num(rng, 0.9, 1.2), pick(rng, 0.017, 0.021, 0.024)
-    floor, z = _floor(count * w, rng)
-    parts, rails = floor, int(rng.integers(1, 4))
-    joined, bend = chance(rng, 0.5), pick(rng, 0.0, 0.1, 0.2)
-    for k in range(count):
-        a, b = k * w + 0.04, (k + 1) * w - 0.04
-        plates, low = base(a, 0, (0.1, 0.08), style, rng, z)
-        parts += plates
-        parts.append(piece(box((0.1, 0.08, low - z), (b, 0, (z + low) / 2)), "base plate"))
-        solids = [pipe([(a, 0, low), (a, 0, z + h), (b, 0, z + h), (b, 0, low)], r, style, bend, 0.003)]
-        for j in range(rails):
-            level = z + h * (j + 1) / (rails + 1)
-            solids.append(pipe([(a + r, 0, level), (b - r, 0, level)], 0.8 * r, style))
-        if joined:
-            parts.append(piece(merge(solids), "railing", "safety", "railing"))
-        else:
-            parts += [piece(one, "railing", "safety", "railing") for one in solids]
-    return Model([*parts, *_kick(count * w, z, rng)])
+
+    count: int = whole(1, 3, "bays")
+    width: float = between(0.8, 2.0, "of a bay", "m")
+    height: float = between(0.9, 1.2, "of a bow", "m")
+    radius: float = among((0.017, 0.021, 0.024), "of the tube", "m")
+    ground: _Ground = nested(_Ground, "what it stands on")
+    rails: int = whole(1, 3, "rails in a bow")
+    joined: bool = chance(0.5, "a bay is one mesh")
+    bend: float = among((0.0, 0.1, 0.2), "radius of a bow's bends", "m")
+    bases: tuple[Base, ...] = bases(lambda p: p.count)
+    kick: _Kick = nested(_Kick, "toe plate")
+
+    def build(self, t: Table) -> Model:
+        w, h, r, style = self.width, self.height, self.radius, t.style
+        up = t.at(0, 0, self.ground.build(t, self.count * w))
+        for k, base in enumerate(self.bases):
+            a, b = k * w + 0.04, (k + 1) * w - 0.04
+            low = base.build(up.at(a), 0.1, 0.08)
+            up.add("base plate", box((0.1, 0.08, low), (b, 0, low / 2)))
+            solids = [pipe([(a, 0, low), (a, 0, h), (b, 0, h), (b, 0, low)], r, style, self.bend, 0.003)]
+            levels = [h * (j + 1) / (self.rails + 1) for j in range(self.rails)]
+            solids += [pipe([(a + r, 0, z), (b - r, 0, z)], 0.8 * r, style) for z in levels]
+            spread(up.bundled("railing"), "railing", solids, joined=self.joined)
+        self.kick.build(up, self.count * w)
+        return t.model()
 
 
-def _side_fixed(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class SideFixed(Structure, name="railing/side fixed"):
     """Posts of flat, angle, tube or channel bolted to the side of an edge beam, with rails through or before them."""
-    length, h = num(rng, 1.2, 4.0), num(rng, 0.95, 1.15)
-    edge = drawn(rng, style, num(rng, 0.14, 0.24), ("U", "RHS", "U", "H"))
-    deep = float(np.ptp(edge[0][:, 1]))
-    face = float(-edge[0][:, 0].min())
-    z = num(rng, 0.0, 1.0) + 0.15
-    parts = [piece(bar((0, 0, z + deep / 2), (length, 0, z + deep / 2), edge), "beam")]
-    parts += [
-        piece(box((0.12, 0.12, z), (x, 0, z / 2)), pick(rng, "column", "foundation")) for x in (0.1, length - 0.1)
-    ]
-    kind = pick(rng, "flat", "L", "SHS", "CHS", "U")
-    one, size = section(kind, 0.06, style), 0.03
-    y = -face - size - 0.008
-    for x in np.linspace(0.06, length - 0.06, max(2, int(length / 1.1) + 1)):
-        parts.append(piece(bar((x, y, z + 0.03), (x, y, z + deep + h), one, (0, 1, 0)), "post", "safety", "railing"))
-        parts.append(piece(box((0.08, 0.008, deep), (x, -face - 0.004, z + 0.5 * deep)), "plate"))
-        turn = spun("x", np.pi / 2)
-        parts += bolted([at(x + s * 0.025, -face - 0.008, z + 0.5 * deep) @ turn for s in (-1, 1)], 0.012, style, 0.01)
-    rail = section(pick(rng, "CHS", "SHS", "L", "flat"), 0.045, style)
-    top = z + deep + h
-    for level in (top, *np.linspace(z + deep, top, int(rng.integers(3, 5)))[1:-1]):
-        shift = 0.0 if level == top else pick(rng, size, 0.0)
-        parts.append(
-            piece(bar((0, y + shift, level), (length, y + shift, level), rail), "railing", "safety", "railing")
+
+    length: float = between(1.2, 4.0, "of the railing", "m")
+    height: float = between(0.95, 1.15, "over the edge beam", "m")
+    edge_size: float = between(0.14, 0.24, "height of the edge beam's section", "m")
+    edge: str = among(("U", "RHS", "U", "H"), "section of the edge beam")
+    lift: float = between(0.0, 1.0, "height of the edge beam over 0.15 m", "m")
+    feet: tuple[str, ...] = each(one_of("column", "foundation"), "what the edge beam stands on", count=2)
+    post: str = among(("flat", "L", "SHS", "CHS", "U"), "section of the posts")
+    rail: str = among(("CHS", "SHS", "L", "flat"), "section of the rails")
+    rails: int = whole(3, 4, "levels with the edge beam's")
+    behind: tuple[float, ...] = each(
+        one_of(0.03, 0.0), "how far a lower rail is behind the posts' axis", "m", count=lambda p: p.rails - 2
+    )
+    kicked: bool = chance(0.6, "a toe plate")
+
+    def build(self, t: Table) -> Model:
+        long, z, own, size = self.length, self.lift + 0.15, t.bundled("railing"), 0.03
+        edge, one, rail = (
+            section(kind, high, t.style)
+            for kind, high in ((self.edge, self.edge_size), (self.post, 0.06), (self.rail, 0.045))
         )
-    if chance(rng, 0.6):
-        kick = box((length, 0.005, 0.1), (length / 2, y + size + 0.0025, z + deep + 0.06))
-        parts.append(piece(kick, "railing", "safety", "railing"))
-    return Model(parts)
+        x0, _x1, y0, y1 = span_of(edge)
+        deep, y = y1 - y0, x0 - size - 0.008
+        t.add("beam", bar((0, 0, z + deep / 2), (long, 0, z + deep / 2), edge))
+        for x, name in zip((0.1, long - 0.1), self.feet, strict=True):
+            t.add(name, box((0.12, 0.12, z), (x, 0, z / 2)), of="steel")
+        for x in np.linspace(0.06, long - 0.06, max(2, int(long / 1.1) + 1)):
+            post = bar((x, y, z + 0.03), (x, y, z + deep + self.height), one, (0, 1, 0))
+            own.add("post", post, of="safety")
+            t.add("plate", box((0.08, 0.008, deep), (x, x0 - 0.004, z + 0.5 * deep)))
+            turn = spun("x", np.pi / 2)
+            bolts(t, [at(x + s * 0.025, x0 - 0.008, z + 0.5 * deep) @ turn for s in BOTH], 0.012, 0.01)
+        levels = np.linspace(z + deep, z + deep + self.height, self.rails)
+        for level, shift in zip((levels[-1], *levels[1:-1]), (0.0, *self.behind), strict=True):
+            own.add("railing", bar((0, y + shift, level), (long, y + shift, level), rail))
+        if self.kicked:
+            own.add("railing", box((long, 0.005, 0.1), (long / 2, y + size + 0.0025, z + deep + 0.06)))
+        return t.model()
 
 
 def _fill(kind: str, w: float, h: float, style: ModelingStyle) -> list[Solid]:
@@ -114,20 +146,13 @@ def _fill(kind: str, w: float, h: float, style: ModelingStyle) -> list[Solid]:
     if kind == "wires":
         return [rod((0, 0, z), (w, 0, z), 0.003, 6) for z in np.arange(0.1, h, 0.1)]
     if kind == "mesh":
-        upright = [rod((x, 0, 0), (x, 0, h), 0.002, 4) for x in np.linspace(0, w, int(w / 0.07) + 2)[1:-1]]
-        return [
-            merge(
-                [
-                    *upright,
-                    *(rod((0, 0.003, z), (w, 0.003, z), 0.002, 4) for z in np.linspace(0, h, int(h / 0.07) + 2)[1:-1]),
-                ]
-            )
-        ]
+        wires = [rod((x, 0, 0), (x, 0, h), 0.002, 4) for x in np.linspace(0, w, int(w / 0.07) + 2)[1:-1]]
+        wires += [rod((0, 0.003, z), (w, 0.003, z), 0.002, 4) for z in np.linspace(0, h, int(h / 0.07) + 2)[1:-1]]
+        return [merge(wires)]
     if kind == "sheet":
-        holes = tuple(
-            circle(0.012, 6, (x, z)) for x in np.arange(0.1, w - 0.08, 0.12) for z in np.arange(0.1, h - 0.08, 0.12)
-        )
-        return [slab_xz([(0, 0), (w, 0), (w, h), (0, h)], 0.002, 0.0, holes if style.holes else ())]
+        spots = [(x, z) for x in np.arange(0.1, w - 0.08, 0.12) for z in np.arange(0.1, h - 0.08, 0.12)]
+        holes = tuple(circle(0.012, 6, spot) for spot in spots) if style.holes else ()
+        return [slab_xz([(0, 0), (w, 0), (w, h), (0, h)], 0.002, 0.0, holes)]
     if kind == "glass":
         return [box((w - 0.04, 0.012, h - 0.02), (w / 2, 0, h / 2))]
     if kind == "cross":
@@ -135,43 +160,42 @@ def _fill(kind: str, w: float, h: float, style: ModelingStyle) -> list[Solid]:
     return [box((w, 0.02, 0.09), (w / 2, 0, z)) for z in np.arange(0.08, h, 0.13)]
 
 
-def _infill(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class Infill(Structure, name="railing/infill", weight=1.5):
     """A balustrade: posts, top and bottom rail, filled with bars, wires, mesh, sheet, glass, slats or a cross."""
-    count, w, h = int(rng.integers(1, 4)), num(rng, 0.8, 1.6), num(rng, 0.9, 1.2)
-    floor, z = _floor(count * w, rng)
-    kind = pick(rng, "bars", "bars", "wires", "mesh", "sheet", "glass", "slats", "cross")
-    post = drawn(rng, style, num(rng, 0.035, 0.06), ("SHS", "CHS", "flat", "square"))
-    half = float(np.ptp(post[0][:, 0])) / 2
-    parts, top = floor, section(pick(rng, "CHS", "SHS", "flat", "timber"), 0.045, style)
-    lows = []
-    for k in range(count + 1):
-        plates, low = base(k * w, 0, (0.11, 0.09), style, rng, z)
-        lows.append(low)
-        parts += [*plates, piece(bar((k * w, 0, low), (k * w, 0, z + h), post, (0, 1, 0)), "post", "safety", "railing")]
-    high = z + h + float(np.ptp(top[0][:, 1])) / 2
-    parts.append(piece(bar((-half, 0, high), (count * w + half, 0, high), top), "railing", "safety", "railing"))
-    joined = chance(rng, 0.5)
-    for k in range(count):
-        a, wide = k * w + half, w - 2 * half
-        frame = (
-            []
-            if kind in ("glass", "wires", "slats")
-            else [bar((a, 0, z + 0.1), (a + wide, 0, z + 0.1), section("SHS", 0.03, style))]
-        )
-        solids = [*frame, *(moved(one, at(a, 0, z + 0.1)) for one in _fill(kind, wide, h - 0.1, style))]
-        color = "dial" if kind == "glass" else "safety"
-        made = [merge(solids)] if joined else solids
-        parts += [piece(one, "railing", color, "railing") for one in made]
-        if kind == "glass":
-            parts += [
-                piece(box((0.05, 0.03, 0.04), (x, 0, z + f * h)), "clamp")
-                for x in (a + 0.01, a + wide - 0.01)
-                for f in (0.3, 0.8)
-            ]
-    return Model(parts)
+
+    count: int = whole(1, 3, "bays")
+    width: float = between(0.8, 1.6, "of a bay", "m")
+    height: float = between(0.9, 1.2, "of a post", "m")
+    ground: _Ground = nested(_Ground, "what it stands on")
+    fill: str = among(("bars", "bars", "wires", "mesh", "sheet", "glass", "slats", "cross"), "of a bay")
+    size: float = between(0.035, 0.06, "height of a post's section", "m")
+    post: str = among(("SHS", "CHS", "flat", "square"), "section of the posts")
+    rail: str = among(("CHS", "SHS", "flat", "timber"), "section of the top rail")
+    bases: tuple[Base, ...] = bases(lambda p: p.count + 1)
+    joined: bool = chance(0.5, "a bay is one mesh")
+
+    def build(self, t: Table) -> Model:
+        w, h, style, glass = self.width, self.height, t.style, self.fill == "glass"
+        post, top = section(self.post, self.size, style), section(self.rail, 0.045, style)
+        up = t.at(0, 0, self.ground.build(t, self.count * w))
+        own, half = up.bundled("railing"), float(np.ptp(post[0][:, 0])) / 2
+        for k, base in enumerate(self.bases):
+            low = base.build(up.at(k * w), 0.11, 0.09)
+            own.add("post", bar((k * w, 0, low), (k * w, 0, h), post, (0, 1, 0)), of="safety")
+        high, wide = h + float(np.ptp(top[0][:, 1])) / 2, w - 2 * half
+        own.add("railing", bar((-half, 0, high), (self.count * w + half, 0, high), top))
+        solids = _fill(self.fill, wide, h - 0.1, style)
+        if self.fill not in ("glass", "wires", "slats"):
+            solids = [bar((0, 0, 0), (wide, 0, 0), section("SHS", 0.03, style)), *solids]
+        for k in range(self.count):
+            a = k * w + half
+            spread(own.at(a, 0, 0.1), "railing", solids, of="dial" if glass else "safety", joined=self.joined)
+            spots = [(x, f) for x in (a + 0.01, a + wide - 0.01) for f in (0.3, 0.8) if glass]
+            spread(up, "clamp", [box((0.05, 0.03, 0.04), (x, 0, f * h)) for x, f in spots], of="steel")
+        return t.model()
 
 
-def _links(a: Floats, b: Floats, sag: float, style: ModelingStyle) -> Solid:
+def _links(a: Floats, b: Floats, sag: float) -> Solid:
     """A chain that hangs between two points, its links long rings turned by quarters."""
     count = max(8, int(np.linalg.norm(b - a) / 0.07))
     s = np.linspace(0, 1, count + 1)
@@ -189,247 +213,280 @@ def _links(a: Floats, b: Floats, sag: float, style: ModelingStyle) -> Solid:
     return merge(links)
 
 
-def _chained(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class Chained(Structure, name="railing/chain", weight=0.8, grain="fitting"):
     """Posts with ball or flat tops on plates or weighted feet, joined by chains, ropes or a belt."""
-    count, w, h = int(rng.integers(2, 5)), num(rng, 0.9, 1.8), num(rng, 0.8, 1.1)
-    r, kind = num(rng, 0.02, 0.045), pick(rng, "chain", "chain", "rope", "belt")
-    n, top, parts = few_sides(style, r, 16), int(rng.integers(3)), []
-    weighted = chance(rng, 0.5)
-    for k in range(count):
-        x = k * w
-        if weighted:
-            foot = turned([(5 * r, 0), (5 * r, 0.02), (2 * r, 0.05), (r, 0.06)], n)
-            parts.append(piece(moved(foot, at(x)), "base plate", "rubber"))
-            low = 0.06
-        else:
-            plates, low = base(x, 0, (6 * r, 6 * r), style, rng)
-            parts += plates
-        shaft = [cylinder(r, low, h, n)]
-        shaft.append(
-            moved(ball(1.4 * r, n), at(0, 0, h + 0.8 * r))
-            if top == 0
-            else dome(r, 0.6 * r, h, n)
-            if top == 1
-            else cylinder(1.3 * r, h, h + 0.01, n)
-        )
-        parts.append(piece(moved(merge(shaft), at(x)), "post", "safety"))
-    for level in (0.9 * h, *((0.5 * h,) if chance(rng, 0.5) else ())):
-        for k in range(count - 1):
-            a, b = np.array([k * w + r, 0, level]), np.array([(k + 1) * w - r, 0, level])
-            if kind == "chain":
-                parts.append(piece(_links(a, b, 0.1 * w, style), "railing", "safety"))
-            elif kind == "rope":
-                s = np.linspace(0, 1, 9)
-                path = a + s[:, None] * (b - a) - np.outer(0.4 * w * s * (1 - s), [0, 0, 1])
-                parts.append(piece(pipe(path, 0.012, style), "railing", "safety"))
+
+    count: int = whole(2, 4, "posts")
+    width: float = between(0.9, 1.8, "from post to post", "m")
+    height: float = between(0.8, 1.1, "of a post", "m")
+    radius: float = between(0.02, 0.045, "of a post", "m")
+    line: str = among(("chain", "chain", "rope", "belt"), "what joins the posts")
+    top: str = among(("ball", "dome", "flat"), "of a post")
+    loose: bool = chance(0.5, "its posts have weighted feet, no base plates")
+    bases: tuple[Base, ...] = bases(lambda p: p.count, when=lambda p: not p.loose)
+    double: bool = chance(0.5, "a second line below the first")
+
+    def build(self, t: Table) -> Model:
+        w, h, r, n = self.width, self.height, self.radius, few_sides(t.style, self.radius, 16)
+        foot = turned(outline(5 * r, 0, 5 * r, 0.02, 2 * r, 0.05, r, 0.06), n)
+        top = {
+            "ball": moved(ball(1.4 * r, n), at(0, 0, h + 0.8 * r)),
+            "dome": dome(r, 0.6 * r, h, n),
+            "flat": cylinder(1.3 * r, h, h + 0.01, n),
+        }[self.top]
+        for k in range(self.count):
+            here, low = t.at(k * w), 0.06
+            if self.loose:
+                here.add("base plate", foot, of="rubber")
             else:
-                parts.append(piece(box((w - 2 * r, 0.002, 0.05), ((a[0] + b[0]) / 2, 0, level)), "railing", "safety"))
-    return Model(parts)
+                low = self.bases[k].build(here, 6 * r, 6 * r)
+            here.add("post", cylinder(r, low, h, n), top, of="safety")
+        s = np.linspace(0, 1, 9)
+        for level in (0.9 * h, 0.5 * h)[: 1 + self.double]:
+            for k in range(self.count - 1):
+                a, b = np.array([k * w + r, 0, level]), np.array([(k + 1) * w - r, 0, level])
+                if self.line == "chain":
+                    solid = _links(a, b, 0.1 * w)
+                elif self.line == "rope":
+                    path = a + s[:, None] * (b - a) - np.outer(0.4 * w * s * (1 - s), [0, 0, 1])
+                    solid = pipe(path, 0.012, t.style)
+                else:
+                    solid = box((w - 2 * r, 0.002, 0.05), ((a[0] + b[0]) / 2, 0, level))
+                t.add("railing", solid)
+        return t.model()
 
 
-def _curved(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class Curved(Structure, name="railing/curved"):
     """A railing on an arc, as round a tank's roof or a pit: rails swept round, posts radial, a bent toe plate."""
-    radius, turn = num(rng, 0.8, 2.5), num(rng, 0.8, 4.5)
-    h, r = num(rng, 0.95, 1.15), pick(rng, 0.017, 0.021, 0.024)
-    steps = max(8, int(turn * 8))
-    a = np.linspace(0, turn, steps + 1)
 
-    def round_at(z: float, reach: float) -> Floats:
-        return np.column_stack([reach * np.cos(a), reach * np.sin(a), np.full(len(a), z)])
+    bend: float = between(0.8, 2.5, "radius of the arc", "m")
+    turn: float = between(0.8, 4.5, "of the arc", "rad")
+    height: float = between(0.95, 1.15, "of the top rail", "m")
+    radius: float = among((0.017, 0.021, 0.024), "of the top rail's tube", "m")
+    rails: int = whole(3, 4, "levels with the floor's")
+    post: str = among(("CHS", "flat", "L"), "section of the posts")
+    kicked: bool = chance(0.6, "a toe plate")
+    floored: bool = chance(0.5, "a strip of floor under it")
+    floor: str = among(("platform", "foundation"), "what the floor is called", when=lambda p: p.floored and p.turn < 6)
 
-    parts = [piece(pipe(round_at(h, radius), r, style, 0.0, 0.003), "railing", "safety", "railing")]
-    for level in np.linspace(0, h, int(rng.integers(3, 5)))[1:-1]:
-        parts.append(piece(pipe(round_at(float(level), radius), 0.75 * r, style), "railing", "safety", "railing"))
-    n = few_sides(style, r, 14)
-    one = section(pick(rng, "CHS", "flat", "L"), 2 * r, style)
-    for angle in np.linspace(0, turn, max(3, int(radius * turn / 1.0) + 1)):
-        x, y = radius * np.cos(angle), radius * np.sin(angle)
-        parts.append(piece(bar((x, y, 0.008), (x, y, h - 0.5 * r), one, (-y, x, 0)), "post", "safety", "railing"))
-        parts.append(piece(moved(cylinder(0.05, 0, 0.008, n), at(x, y)), "base plate"))
-    if chance(rng, 0.6):
-        flat = rounded_rectangle(0.1, 0.004, 0.0)
-        solid = sweep(round_at(0.06, radius - r - 0.002), flat, up=(0, 0, 1))
-        parts.append(piece(solid, "railing", "safety", "railing"))
-    if chance(rng, 0.5):
-        rim = np.vstack([round_at(0, radius + 0.15)[:, :2], round_at(0, radius - 0.3)[::-1, :2]])
-        if turn < 6:
-            parts.append(piece(slab_xy(rim, -0.05, 0.0), pick(rng, "platform", "foundation"), "concrete"))
-    return Model(parts)
+    def build(self, t: Table) -> Model:
+        bend, h, r, own = self.bend, self.height, self.radius, t.bundled("railing")
+        a = np.linspace(0, self.turn, max(8, int(self.turn * 8)) + 1)
+
+        def round_at(z: float, reach: float) -> Floats:
+            return np.column_stack([reach * np.cos(a), reach * np.sin(a), np.full(len(a), z)])
+
+        own.add("railing", pipe(round_at(h, bend), r, t.style, 0.0, 0.003))
+        levels = np.linspace(0, h, self.rails)[1:-1]
+        spread(own, "railing", [pipe(round_at(float(z), bend), 0.75 * r, t.style) for z in levels])
+        n, one = few_sides(t.style, r, 14), section(self.post, 2 * r, t.style)
+        for angle in np.linspace(0, self.turn, max(3, int(bend * self.turn / 1.0) + 1)):
+            x, y = bend * np.cos(angle), bend * np.sin(angle)
+            own.add("post", bar((x, y, 0.008), (x, y, h - 0.5 * r), one, (-y, x, 0)), of="safety")
+            t.at(x, y).add("base plate", cylinder(0.05, 0, 0.008, n))
+        if self.kicked:
+            flat = rounded_rectangle(0.1, 0.004, 0.0)
+            own.add("railing", sweep(round_at(0.06, bend - r - 0.002), flat, up=(0, 0, 1)))
+        if self.floor:
+            rim = np.vstack([round_at(0, bend + 0.15)[:, :2], round_at(0, bend - 0.3)[::-1, :2]])
+            t.add(self.floor, slab_xy(rim, -0.05, 0.0), of="concrete")
+        return t.model()
 
 
-def _clamped(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class Clamped(Structure, name="railing/clamped tubes", weight=0.8, grain="fitting"):
     """A railing of tubes in cast clamps (key clamps): tees, crosses and feet with grub screws; corner or straight."""
-    count, w, h, r = int(rng.integers(1, 4)), num(rng, 0.9, 1.6), num(rng, 0.9, 1.1), pick(rng, 0.017, 0.0212, 0.0242)
-    n, levels = few_sides(style, r, 14), (0.5 * h, h)
-    parts: list[Part] = []
-    joined = chance(rng, 0.4)
-    solids: list[Solid] = []
-    for k in range(count + 1):
-        x = k * w
-        foot = moved(merge([cylinder(2.6 * r, 0, 0.008, n), cylinder(1.35 * r, 0.008, 0.06, n)]), at(x))
-        parts.append(piece(foot, "base plate", "clamp"))
-        solids.append(rod((x, 0, 0.06), (x, 0, h + 0.7 * r), r, n))
-        for z in levels:
-            sleeve = [moved(cylinder(1.35 * r, -1.5 * r, 1.5 * r, n), at(x, 0, z))]
-            sleeve.append(along("x", cylinder(1.3 * r, -2.4 * r * (k > 0), 2.4 * r * (k < count), n), x, 0, z))
-            parts.append(piece(merge(sleeve), "clamp", "clamp"))
-    for z in levels:
-        solids += [rod((k * w + 1.2 * r, 0, z), ((k + 1) * w - 1.2 * r, 0, z), r, n) for k in range(count)]
-    names = ["post"] * (count + 1) + ["railing"] * (len(solids) - count - 1)
-    if joined:
-        parts.append(piece(merge(solids), "railing", "clamp"))
-    else:
-        parts += [piece(one, name, "clamp", "railing") for one, name in zip(solids, names, strict=True)]
-    return Model(parts)
+
+    count: int = whole(1, 3, "bays")
+    width: float = between(0.9, 1.6, "of a bay", "m")
+    height: float = between(0.9, 1.1, "of the top rail", "m")
+    radius: float = among((0.017, 0.0212, 0.0242), "of the tubes", "m")
+    joined: bool = chance(0.4, "the tubes are one mesh")
+
+    def build(self, t: Table) -> Model:
+        w, h, r, count = self.width, self.height, self.radius, self.count
+        n, levels = few_sides(t.style, r, 14), (0.5 * h, h)
+        for k in range(count + 1):
+            here = t.at(k * w)
+            here.add("base plate", cylinder(2.6 * r, 0, 0.008, n), cylinder(1.35 * r, 0.008, 0.06, n), of="clamp")
+            arm = along("x", cylinder(1.3 * r, -2.4 * r * (k > 0), 2.4 * r * (k < count), n))
+            for z in levels:
+                here.at(0, 0, z).add("clamp", cylinder(1.35 * r, -1.5 * r, 1.5 * r, n), arm)
+        posts = [rod((k * w, 0, 0.06), (k * w, 0, h + 0.7 * r), r, n) for k in range(count + 1)]
+        ends = [(k * w + 1.2 * r, (k + 1) * w - 1.2 * r, z) for z in levels for k in range(count)]
+        rails = [rod((a, 0, z), (b, 0, z), r, n) for a, b, z in ends]
+        if self.joined:
+            t.add("railing", *posts, *rails, of="clamp")
+        else:
+            for name, solids in (("post", posts), ("railing", rails)):
+                spread(t.bundled("railing"), name, solids, of="clamp")
+        return t.model()
 
 
-def _on_wall(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class OnWall(Structure, name="railing/wall", weight=0.8, grain="fitting"):
     """A handrail on brackets on a wall, level or rising, its ends bent to the wall."""
-    length, rise = num(rng, 1.0, 3.5), pick(rng, 0.0, 0.0, 0.4) * num(rng, 0.8, 1.2)
-    r, y, z = pick(rng, 0.017, 0.021, 0.025), -0.09, num(rng, 0.85, 1.0)
-    tall = z + rise * length + num(rng, 0.2, 1.5)
-    parts = [piece(box((length + 0.4, 0.15, tall), (length / 2, 0.075, tall / 2)), "wall", "concrete")]
 
-    def level(x: float) -> float:
-        return z + rise * x
+    length: float = between(1.0, 3.5, "of the handrail, level", "m")
+    slope: float = among((0.0, 0.0, 0.4), "rise / length, but for the next factor")
+    steep: float = between(0.8, 1.2, "factor of the slope")
+    radius: float = among((0.017, 0.021, 0.025), "of the tube", "m")
+    height: float = between(0.85, 1.0, "of its lower end", "m")
+    above: float = between(0.2, 1.5, "height of the wall over its upper end", "m")
+    bent: bool = chance(0.6, "its ends are bent to the wall")
 
-    ends = chance(rng, 0.6)
-    path = [(0, y, level(0)), (length, y, level(length))]
-    if ends:
-        path = [(0.0, 0.0, level(0)), *path, (length, 0.0, level(length))]
-    parts.append(piece(pipe(path, r, style, 0.06, 0.003), "railing", "handle"))
-    for x in np.linspace(0.15, length - 0.15, max(2, int(length / 0.9) + 1)):
-        top = level(x) - r
-        arm = pipe([(x, 0, top - 0.06), (x, y, top - 0.06), (x, y, top + 0.3 * r)], 0.007, style, 0.04)
-        parts.append(
-            piece(
-                merge([arm, along("y", cylinder(0.03, -0.006, 0.0, few_sides(style, 0.03, 14)), x, 0, top - 0.06)]),
-                "bracket",
-            )
-        )
-    return Model(parts)
+    def build(self, t: Table) -> Model:
+        long, rise, r, y, z = self.length, self.slope * self.steep, self.radius, -0.09, self.height
+        tall = z + rise * long + self.above
+        t.add("wall", box((long + 0.4, 0.15, tall), (long / 2, 0.075, tall / 2)))
+        path = [(x, y_, z + rise * x) for x, y_ in ((0.0, 0.0), (0.0, y), (long, y), (long, 0.0))]
+        rail = pipe(path if self.bent else path[1:3], r, t.style, 0.06, 0.003)
+        t.add("railing", rail, of="handle")
+        rose = along("y", cylinder(0.03, -0.006, 0.0, few_sides(t.style, 0.03, 14)), 0, 0, -0.06)
+        arm = pipe([(0, 0, -0.06), (0, y, -0.06), (0, y, 0.3 * r)], 0.007, t.style, 0.04)
+        for x in np.linspace(0.15, long - 0.15, max(2, int(long / 0.9) + 1)):
+            t.at(x, 0, z + rise * x - r).add("bracket", arm, rose)
+        return t.model()
 
 
-def _barrier(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+# The lower half of a W-beam's section, from its edge to its middle.
+_WAVE = outline(0, -0.155, 0, -0.13, 0.08, -0.1, 0.08, -0.06, 0, -0.02)
+
+
+class _Hoop(Params):
+    """A floor hoop of thick tube."""
+
+    bases: tuple[Base, ...] = bases(2)
+    railed: bool = chance(0.5, "with a cross tube")
+
+
+class Barrier(Structure, name="railing/barrier", grain="fitting"):
     """Impact protection: floor hoops of thick tube, a W-beam on posts (EN 1317), or plank rails between stout posts."""
-    kind, count, w = int(rng.integers(3)), int(rng.integers(1, 4)), num(rng, 0.8, 2.0)
-    parts: list[Part] = []
-    if kind == 0:
-        r, h = num(rng, 0.03, 0.06), num(rng, 0.35, 1.0)
-        for k in range(count):
-            a, b = k * (w + 0.3), k * (w + 0.3) + w
-            for x in (a, b):
-                plates, low = base(x, 0, (5 * r, 5 * r), style, rng)
-                parts += plates
-            solids = [pipe([(a, 0, 0.008), (a, 0, h), (b, 0, h), (b, 0, 0.008)], r, style, 3 * r, 0.004)]
-            if chance(rng, 0.5):
-                solids.append(pipe([(a, 0, 0.5 * h), (b, 0, 0.5 * h)], 0.8 * r, style))
-            parts.append(piece(merge(solids), "railing", "safety"))
-        return Model(parts)
-    h, length = num(rng, 0.6, 0.9), count * w
-    stout = drawn(rng, style, num(rng, 0.08, 0.14), ("U", "H", "SHS", "C"))
-    face = float(-stout[0][:, 1].min())
-    for k in range(count + 1):
-        plates, low = base(k * w, 0, (0.25, 0.25), style, rng)
-        parts += [*plates, piece(bar((k * w, 0, low), (k * w, 0, h), stout, (0, 1, 0)), "post", "safety")]
-    if kind == 1:
-        wave = [
-            (0.0, -0.155),
-            (0.0, -0.13),
-            (0.08, -0.1),
-            (0.08, -0.06),
-            (0.0, -0.02),
-            (0.0, 0.02),
-            (0.08, 0.06),
-            (0.08, 0.1),
-            (0.0, 0.13),
-            (0.0, 0.155),
-        ]
-        line = ribbon(wave, 0.003, 0.01, 2)
-        y = -face - 0.0015
-        rail = moved(
-            along("x", slab_xy(np.column_stack([-line[:, 1], line[:, 0]]), -0.3, length + 0.3)),
-            at(0, y, h - 0.16) @ spun("x", np.pi),
-        )
-        parts.append(piece(rail, "railing", "clamp"))
-    else:
-        plank = section(pick(rng, "U", "RHS", "timber", "flat"), num(rng, 0.12, 0.25), style)
-        near = float(plank[0][:, 0].max())
-        y = -face - near
-        for z in np.linspace(0.2, h - 0.1, int(rng.integers(1, 4))):
-            parts.append(piece(bar((-0.1, y, z), (length + 0.1, y, z), plank), "railing", "safety"))
-    return Model(parts)
+
+    form: str = among(("hoops", "W-beam", "planks"), "what it is")
+    count: int = whole(1, 3, "bays")
+    width: float = between(0.8, 2.0, "of a bay", "m")
+    radius: float = between(0.03, 0.06, "of a hoop's tube", "m", when=of_form("hoops"))
+    height: float = between(
+        lambda p: 0.35 if p.form == "hoops" else 0.6,
+        lambda p: 1.0 if p.form == "hoops" else 0.9,
+        "of hoops or posts",
+        "m",
+    )
+    hoops: tuple[_Hoop, ...] = each(made(_Hoop), "hoop", when=of_form("hoops"))
+    size: float = between(0.08, 0.14, "height of a post's section", "m", when=lambda p: p.form != "hoops")
+    post: str = among(("U", "H", "SHS", "C"), "section of the posts", when=lambda p: p.form != "hoops")
+    bases: tuple[Base, ...] = bases(lambda p: p.count + 1, when=lambda p: p.form != "hoops")
+    plank: str = among(("U", "RHS", "timber", "flat"), "section of the planks", when=of_form("planks"))
+    plank_size: float = between(0.12, 0.25, "height of a plank", "m", when=of_form("planks"))
+    planks: int = whole(1, 3, "one above the other", when=of_form("planks"))
+
+    def build(self, t: Table) -> Model:
+        w, h, r = self.width, self.height, self.radius
+        for k, hoop in enumerate(self.hoops):
+            here = t.at(k * (w + 0.3))
+            for x, base in zip((0.0, w), hoop.bases, strict=True):
+                base.build(here.at(x), 5 * r, 5 * r)
+            path = [(0, 0, 0.008), (0, 0, h), (w, 0, h), (w, 0, 0.008)]
+            tubes = [pipe(path, r, t.style, 3 * r, 0.004)]
+            tubes += [pipe([(0, 0, 0.5 * h), (w, 0, 0.5 * h)], 0.8 * r, t.style)] if hoop.railed else []
+            here.add("railing", *tubes)
+        if not self.hoops:
+            self._posted(t)
+        return t.model()
+
+    def _posted(self, t: Table) -> None:
+        """With posts."""
+        h, length, stout = self.height, self.count * self.width, section(self.post, self.size, t.style)
+        for k, base in enumerate(self.bases):
+            low = base.build(t.at(k * self.width), 0.25, 0.25)
+            post = bar((k * self.width, 0, low), (k * self.width, 0, h), stout, (0, 1, 0))
+            t.add("post", post, of="safety")
+        face = float(stout[0][:, 1].min())
+        if self.form == "W-beam":
+            line = ribbon([*_WAVE, *((x, -z) for x, z in _WAVE[::-1])], 0.003, 0.01, 2)
+            rail = along("x", slab_xy(np.column_stack([-line[:, 1], line[:, 0]]), -0.3, length + 0.3))
+            t.at(0, face - 0.0015, h - 0.16).spun("x", np.pi).add("railing", rail, of="clamp")
+            return
+        plank = section(self.plank, self.plank_size, t.style)
+        y = face - float(plank[0][:, 0].max())
+        levels = np.linspace(0.2, h - 0.1, self.planks)
+        spread(t, "railing", [bar((-0.1, y, z), (length + 0.1, y, z), plank) for z in levels])
 
 
-def _bollards(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class Bollards(Structure, name="post/bollard", weight=0.8, grain="fitting"):
     """Bollards: steel tubes with dome, cap or concrete fill, on plates or cast in, with bands or hoops."""
-    count, w, h, r = int(rng.integers(1, 5)), num(rng, 0.6, 1.5), num(rng, 0.5, 1.3), num(rng, 0.045, 0.11)
-    n, top, cast, parts = few_sides(style, r, 24), int(rng.integers(4)), chance(rng, 0.4), []
-    bands = chance(rng, 0.4)
-    for k in range(count):
-        low = 0.0
-        if cast:
-            parts.append(piece(box((5 * r, 5 * r, 0.2), (k * w, 0, -0.1)), "foundation", "concrete"))
+
+    count: int = whole(1, 4, "bollards")
+    width: float = between(0.6, 1.5, "from one to the next", "m")
+    height: float = between(0.5, 1.3, "of a bollard", "m")
+    radius: float = between(0.045, 0.11, "of a bollard", "m")
+    top: str = among(("dome", "flat", "cap", "groove"), "of a bollard")
+    cast: bool = chance(0.4, "cast in concrete, not on base plates")
+    banded: bool = chance(0.4, "with a reflecting band")
+    bases: tuple[Base, ...] = bases(lambda p: p.count, when=lambda p: not p.cast)
+
+    def build(self, t: Table) -> Model:
+        h, r, n = self.height, self.radius, few_sides(t.style, self.radius, 24)
+        end = {
+            "dome": outline(r, h - r, 0.7 * r, h - 0.3 * r, 0, h),
+            "flat": outline(r, h),
+            "cap": outline(r, h - 0.03, 1.1 * r, h - 0.03, 1.1 * r, h),
+            "groove": outline(r, h - 0.1, 0.85 * r, h - 0.1, 0.85 * r, h - 0.07, r, h - 0.07, r, h),
+        }[self.top]
+        for k in range(self.count):
+            here, low = t.at(k * self.width), 0.0
+            if self.cast:
+                here.add("foundation", box((5 * r, 5 * r, 0.2), (0, 0, -0.1)))
+            else:
+                low = self.bases[k].build(here, 3.4 * r, 3.4 * r)
+            here.add("post", turned([(r, low), *end], n), of="safety")
+            if self.banded:
+                here.add("sign", ring(r, r + 0.002, 0.6 * h, 0.6 * h + 0.1, n), of="dial")
+        return t.model()
+
+
+_SHAPES = ("SHS", "RHS", "CHS", "L", "U", "flat", "strut", "round", "T", "timber")
+
+
+class _Stand(Params):
+    """A lone post."""
+
+    size: float = between(0.03, 0.1, "height of its section", "m")
+    height: float = between(0.4, 2.2, "of the post", "m")
+    shape: str = among(_SHAPES, "section")
+    foot: str = among(("plate", "socket", "plinth"), "what it stands on, in or beside")
+    base: Base = nested(Base, "base plate", when=lambda p: p.foot == "plate")
+    top: str = among(("cap", "panel", "arm", "bare"), "what it carries")
+    panel: str = among(("sign", "plate"), "what the panel is called", when=lambda p: p.top == "panel")
+
+    def build(self, t: Table) -> None:
+        """Puts it down about z."""
+        size, h, one, low = self.size, self.height, section(self.shape, self.size, t.style), 0.0
+        y0 = float(one[0][:, 1].min())
+        if self.foot == "plate":
+            low = self.base.build(t, size + 0.08, size + 0.08)
+        elif self.foot == "socket":
+            t.add("foundation", box((4 * size, 4 * size, 0.12), (0, 0, -0.06)))
         else:
-            plates, low = base(k * w, 0, (3.4 * r, 3.4 * r), style, rng)
-            parts += plates
-        ends = {
-            0: [(r, h - r), (0.7 * r, h - 0.3 * r), (0, h)],
-            1: [(r, h)],
-            2: [(r, h - 0.03), (1.1 * r, h - 0.03), (1.1 * r, h)],
-        }
-        shape = [
-            (r, low),
-            *ends.get(top, [(r, h - 0.1), (0.85 * r, h - 0.1), (0.85 * r, h - 0.07), (r, h - 0.07), (r, h)]),
-        ]
-        parts.append(piece(moved(turned(shape, n), at(k * w)), "post", "safety"))
-        if bands:
-            parts.append(piece(moved(ring(r, r + 0.002, 0.6 * h, 0.6 * h + 0.1, n), at(k * w)), "sign", "dial"))
-    return Model(parts)
+            t.add("foundation", box((0.4, 0.3, 0.5), (0, 0.15 - y0, 0.25)))
+        t.add("post", bar((0, 0, low), (0, 0, h), one, (0, 1, 0)))
+        if self.top == "cap":
+            t.add("plate", box((size + 0.06, size + 0.06, 0.008), (0, 0, h + 0.004)))
+        elif self.top == "panel":
+            t.add(self.panel, box((0.25, 0.003, 0.2), (0, y0 - 0.0015, h - 0.12)), of="dial")
+        elif self.top == "arm":
+            t.add("bracket", box((0.3, 0.04, 0.006), (0, 0, h + 0.003)))
 
 
-def _posts(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class Stands(Structure, name="post/stand", weight=1.2, grain="fitting"):
     """Lone posts of any section on plates, in sockets or on the side of a plinth, with caps, arms or a small panel."""
-    parts: list[Part] = []
-    for k in range(int(rng.integers(1, 4))):
-        x, size, h = 0.9 * k, num(rng, 0.03, 0.1), num(rng, 0.4, 2.2)
-        kind = pick(rng, "SHS", "RHS", "CHS", "L", "U", "flat", "strut", "round", "T", "timber")
-        one = section(kind, size, style)
-        low, foot = 0.0, int(rng.integers(3))
-        if foot == 0:
-            plates, low = base(x, 0, (size + 0.08, size + 0.08), style, rng)
-            parts += plates
-        elif foot == 1:
-            parts.append(piece(box((4 * size, 4 * size, 0.12), (x, 0, -0.06)), "foundation", "concrete"))
-        else:
-            side = float(-one[0][:, 1].min())
-            parts.append(piece(box((0.4, 0.3, 0.5), (x, side + 0.15, 0.25)), "foundation", "concrete"))
-        parts.append(piece(bar((x, 0, low), (x, 0, h), one, (0, 1, 0)), "post"))
-        top = int(rng.integers(4))
-        if top == 0:
-            parts.append(piece(box((size + 0.06, size + 0.06, 0.008), (x, 0, h + 0.004)), "plate"))
-        elif top == 1:
-            parts.append(
-                piece(
-                    box((0.25, 0.003, 0.2), (x, float(one[0][:, 1].min()) - 0.0015, h - 0.12)),
-                    pick(rng, "sign", "plate"),
-                    "dial",
-                )
-            )
-        elif top == 2:
-            parts.append(piece(box((0.3, 0.04, 0.006), (x, 0, h + 0.003)), "bracket"))
-    return Model(parts)
+
+    count: int = whole(1, 3, "posts")
+    posts: tuple[_Stand, ...] = each(made(_Stand), "post")
+
+    def build(self, t: Table) -> Model:
+        for k, one in enumerate(self.posts):
+            one.build(t.at(0.9 * k))
+        return t.model()
 
 
-RAILS: tuple[Family, ...] = (
-    floor_family("railing/bent bays", _bay, 1.2),
-    floor_family("railing/side fixed", _side_fixed),
-    floor_family("railing/infill", _infill, 1.5),
-    floor_family("railing/chain", _chained, 0.8, "fitting"),
-    floor_family("railing/curved", _curved),
-    floor_family("railing/clamped tubes", _clamped, 0.8, "fitting"),
-    floor_family("railing/wall", _on_wall, 0.8, "fitting"),
-    floor_family("railing/barrier", _barrier, 1.0, "fitting"),
-    floor_family("post/bollard", _bollards, 0.8, "fitting"),
-    floor_family("post/stand", _posts, 1.2, "fitting"),
-)
+RAILS = families_of(BentBays, SideFixed, Infill, Chained, Curved, Clamped, OnWall, Barrier, Bollards, Stands)

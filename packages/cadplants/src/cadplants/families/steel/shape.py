@@ -2,40 +2,46 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import TypeVar
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import Any, TypeVar
 
 import numpy as np
 import numpy.typing as npt
 
 from cadgraph.model.scene import Floats
+from cadplants.builder.device import Device
+from cadplants.builder.params import Params, among, between, chance, several
+from cadplants.builder.table import Table
 from cadplants.families.chance import pick
-from cadplants.family import Family, Part
-from cadplants.mesh_ops import Solid, extrude, merge, moved, tube
+from cadplants.mesh_ops import Solid, extrude, lattice, merge, moved, tube
 from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle
 from cadplants.primitives import box, cylinder, hexagon, rope
 from cadplants.transforms import at, looking, spun
 
 __all__ = [
-    "GROUP",
+    "BOTH",
+    "CORNERS",
     "ROLLED",
+    "Base",
+    "Props",
     "Section",
+    "Structure",
     "bar",
-    "base",
-    "bolted",
-    "chance",
-    "drawn",
+    "bases",
+    "bolts",
+    "each",
     "few_sides",
     "filleted",
     "flat",
-    "floor_family",
+    "grid",
     "lug",
+    "made",
     "mirrored",
-    "num",
-    "piece",
+    "number",
+    "of_form",
+    "one_of",
     "pipe",
-    "propped",
     "rect",
     "ribbon",
     "section",
@@ -43,41 +49,69 @@ __all__ = [
     "slab_xz",
     "slab_yz",
     "span_of",
+    "spread",
+    "yes",
 ]
 
 GROUP = "Structural element"
+Rng = np.random.Generator
+Count = Callable[[Any], int]
+T = TypeVar("T")
+P = TypeVar("P", bound=Params)
 Section = tuple[Floats, tuple[Floats, ...]]
-_T = TypeVar("_T")
-_OTHER = {
-    **dict.fromkeys(
-        ("bolt", "nut", "washer", "stud", "screw", "u-bolt", "clamp", "pipe hanger", "bracket", "gusset plate"),
-        "Connection assembly",
-    ),
-    **dict.fromkeys(("lifting lug", "tank", "shell", "saddle"), "Tank"),
-    **dict.fromkeys(("sign", "lamp", "junction box", "control panel"), "Electrical and safety"),
-}
+BOTH = (-1, 1)
+CORNERS = ((-1, -1), (-1, 1), (1, -1), (1, 1))
 ROLLED = ("H", "I", "IPN", "U", "RHS", "SHS", "CHS")
 
 
-def num(rng: np.random.Generator, low: float, high: float) -> float:
-    """A number between two."""
-    return float(rng.uniform(low, high))
+class Structure(Device, place="floor", group=GROUP, sizes=(15,), grain="structure"):
+    """A structure on the floor; its label is the first word of its name, its grain ``fitting`` if never one mesh."""
+
+    def __init_subclass__(cls, **said: Any) -> None:
+        super().__init_subclass__(**{"label": said.get("name", "").split("/")[0], **said})
 
 
-def chance(rng: np.random.Generator, share: float) -> bool:
-    """Whether something happens that happens this often."""
-    return bool(rng.random() < share)
+def yes(share: float) -> Callable[[Rng, Any], bool]:
+    """Draws whether one of several things is so, that is so this often."""
+    return lambda rng, _: bool(rng.random() < share)
 
 
-def piece(solid: Solid, name: str, color: str = "steel", bundle: str = "", fine: bool = False) -> Part:
-    """A part in the group that its name belongs to."""
-    return Part(solid, name, color, bundle, _OTHER.get(name, ""), fine)
+def number(low: float, high: float) -> Callable[[Rng, Any], float]:
+    """Draws a number of one of several things."""
+    return lambda rng, _: float(rng.uniform(low, high))
 
 
-def floor_family(name: str, build: object, weight: float = 1.0, grain: str = "structure", whole: str = "") -> Family:
-    """A family of structures on the floor; ``grain`` is ``fitting`` where nobody makes one mesh of it."""
-    label = whole or name.split("/")[0]
-    return Family(name, "floor", GROUP, label, build, (15,), grain, weight)  # type: ignore[arg-type]
+def one_of(*items: T) -> Callable[[Rng, Any], T]:
+    """Draws which of some things one of several is."""
+    return lambda rng, _: pick(rng, *items)
+
+
+def made(piece: type[P], fixed: Callable[[Any], Mapping[str, Any]] = lambda _: {}) -> Callable[[Rng, Any], P]:
+    """Draws one of several pieces, with what the fields before set of it."""
+    return lambda rng, p: piece.draw(rng, fixed(p))
+
+
+def of_form(*forms: str) -> Callable[[Any], bool]:
+    """Tells whether something is of one of these forms."""
+    return lambda p: p.form in forms
+
+
+def each(
+    draw: Callable[[Rng, Any], T],
+    about: str,
+    unit: str = "",
+    *,
+    count: int | Count = lambda p: int(p.count),
+    when: Callable[[Any], bool] | None = None,
+) -> tuple[T, ...]:
+    """What is drawn for each of several things, of which there are as many as the field ``count`` says."""
+    return several(draw, count if callable(count) else lambda _: count, about, unit, when=when)
+
+
+def spread(t: Table, name: str, solids: Iterable[Solid], of: str = "", joined: bool = False, **more: Any) -> None:
+    """Puts solids down each as a part, or joined as one."""
+    for some in [list(solids)] if joined else [[one] for one in solids]:
+        t.add(name, *some, of=of, **more)
 
 
 def few_sides(style: ModelingStyle, radius: float, most: int = 20) -> int:
@@ -202,11 +236,6 @@ def section(kind: str, h: float, style: ModelingStyle) -> Section:
     return _open_section(kind, h, 0.1 * h, steps), ()
 
 
-def drawn(rng: np.random.Generator, style: ModelingStyle, h: float, kinds: Sequence[str] = ROLLED) -> Section:
-    """A section of one of some kinds [m]."""
-    return section(kinds[int(rng.integers(len(kinds)))], h, style)
-
-
 def span_of(one: Section) -> tuple[float, float, float, float]:
     """Least and greatest x, then y of a section [m]."""
     (x0, y0), (x1, y1) = one[0].min(axis=0), one[0].max(axis=0)
@@ -253,79 +282,114 @@ def slab_yz(outline: npt.ArrayLike, thick: float, x: float = 0.0, holes: tuple[F
     return Solid(one.vertices[:, [2, 0, 1]] + (x, 0, 0), one.faces)
 
 
-def bolted(
-    poses: Sequence[Floats], d: float, style: ModelingStyle, grip: float = 0.02, through: bool = False
-) -> list[Part]:
+def bolts(t: Table, poses: Sequence[Floats], d: float, grip: float = 0.02, through: bool = False) -> None:
     """Bolts at faces that look along z of their poses: hex nut on a stud out of concrete, or right through [m]."""
-    n = 6 if style.sides[1] <= 16 else 10
+    n = 6 if t.style.sides[1] <= 16 else 10
     shank = cylinder(0.5 * d, -grip - (0.9 * d if through else 1.5 * d), 1.4 * d, n)
-    nut, washer = hexagon(1.5 * d, 0.15 * d, 0.95 * d), cylinder(d, 0.0, 0.15 * d, n)
-    below = [hexagon(1.5 * d, -grip - 0.7 * d, -grip)] if through else []
-    if style.fasteners == "pieces":
-        kinds = [(shank, "stud" if not through else "bolt"), (nut, "nut"), (washer, "washer")]
-        kinds += [(one, "nut") for one in below]
-        return [piece(moved(one, pose), name, "fastener", fine=True) for pose in poses for one, name in kinds]
-    one = merge([shank, nut, washer, *below])
-    placed = [moved(one, pose) for pose in poses]
-    if style.fasteners == "set" and placed:
-        return [piece(merge(placed), "bolt", "fastener", fine=True)]
-    return [piece(solid, "bolt", "fastener", fine=True) for solid in placed]
+    kinds = [(shank, "bolt" if through else "stud"), (hexagon(1.5 * d, 0.15 * d, 0.95 * d), "nut")]
+    kinds.append((cylinder(d, 0.0, 0.15 * d, n), "washer"))
+    kinds += [(hexagon(1.5 * d, -grip - 0.7 * d, -grip), "nut")] if through else []
+    if t.style.fasteners == "pieces":
+        for pose in poses:
+            for one, name in kinds:
+                t.add(name, moved(one, pose), own=False)
+        return
+    whole_ = merge([one for one, _ in kinds])
+    spread(t, "bolt", [moved(whole_, pose) for pose in poses], joined=t.style.fasteners == "set", own=False)
 
 
-def base(
-    x: float, y: float, size: tuple[float, float], style: ModelingStyle, rng: np.random.Generator, z: float = 0.0
-) -> tuple[list[Part], float]:
-    """A base plate with its anchors (four, two or none), square, round or clipped; also the height of its top [m]."""
-    a, b = size
-    thick = pick(rng, 0.008, 0.012, 0.02)
-    d = float(np.clip(0.1 * min(a, b), 0.008, 0.02))
-    design = int(rng.integers(4))
-    if design == 0:
-        outline = circle(0.55 * max(a, b), few_sides(style, 0.55 * max(a, b), 32))
-        spots = [(0.37 * max(a, b) * np.cos(w), 0.37 * max(a, b) * np.sin(w)) for w in np.arange(4) * 1.5708 + 0.7854]
-    else:
-        cut = 1.2 * d if design == 1 else 0.0
-        outline = rounded_rectangle(a, b, cut, 1 if design == 1 and chance(rng, 0.5) else 3)
-        spots = [(sx * (a / 2 - 1.4 * d), sy * (b / 2 - 1.4 * d)) for sx in (-1, 1) for sy in (-1, 1)]
-        spots = spots if design != 3 else spots[::3]
-    holes = tuple(circle(0.58 * d, 8, (float(u), float(v))) for u, v in spots) if style.holes else ()
-    parts = [piece(moved(slab_xy(outline, z, z + thick, holes), at(x, y)), "base plate")]
-    if chance(rng, 0.7):
-        parts += bolted([at(x + float(u), y + float(v), z + thick) for u, v in spots], d, style, thick)
-    return parts, z + thick
+class Base(Params):
+    """A base plate with its anchors (four, two or none), square, round or clipped."""
 
+    thick: float = among((0.008, 0.012, 0.02), "thickness of the plate", "m")
+    form: str = among(
+        ("round", "clipped", "square", "two anchors"), "round, clipped or square, with four anchors, or square with two"
+    )
+    straight: bool = chance(0.5, "its corners are cut, not rounded", when=of_form("clipped"))
+    anchored: bool = chance(0.7, "with anchors")
 
-def propped(length: float, wide: float, style: ModelingStyle, rng: np.random.Generator) -> tuple[list[Part], float]:
-    """What something long along x from 0 lies on: battens, trestles, columns, pedestals; and the height of its top."""
-    kind = int(rng.integers(4))
-    ends = (0.12 * length, 0.88 * length) if kind == 0 else (0.04 * length, 0.96 * length)
-    parts: list[Part] = []
-    if kind == 0:
-        h = pick(rng, 0.08, 0.1, 0.14)
-        parts = [piece(box((h, wide + 0.3, h), (x, 0, h / 2)), "beam", "safety") for x in ends]
-        return parts, h
-    h = num(rng, 0.5, 2.6) if kind < 3 else num(rng, 0.3, 1.0)
-    if kind == 3:
-        side = max(0.25, wide + 0.1)
-        return [piece(box((0.3, side, h), (x, 0, h / 2)), "foundation", "concrete") for x in ends], h
-    size = float(np.clip(0.8 * wide, 0.08, 0.2))
-    if kind == 1:
-        leg = section(pick(rng, "L", "SHS", "CHS"), 0.06, style)
-        for x in ends:
-            top = section(pick(rng, "SHS", "U", "H"), 0.08, style)
-            parts.append(piece(bar((x, -wide / 2 - 0.15, h - 0.04), (x, wide / 2 + 0.15, h - 0.04), top), "beam"))
-            parts += [
-                piece(bar((x + sx * 0.2, s * (wide / 2 + 0.1), 0), (x, s * (wide / 2 + 0.1), h - 0.08), leg), "post")
-                for s in (-1, 1)
-                for sx in (-1, 1)
+    def build(self, t: Table, a: float, b: float) -> float:
+        """Puts a plate of two sides down on z = 0; the height of its top [m]."""
+        d, big = float(np.clip(0.1 * min(a, b), 0.008, 0.02)), max(a, b)
+        if self.form == "round":
+            edge = circle(0.55 * big, few_sides(t.style, 0.55 * big, 32))
+            spots = [
+                (0.37 * big * float(np.cos(w)), 0.37 * big * float(np.sin(w))) for w in np.arange(4) * 1.5708 + 0.7854
             ]
-        return parts, h
-    one = drawn(rng, style, size)
-    for x in ends:
-        plates, low = base(x, 0, (size + 0.12, size + 0.12), style, rng)
-        parts += [*plates, piece(bar((x, 0, low), (x, 0, h - 0.01), one), "column")]
-        parts.append(piece(box((size + 0.04, max(size, wide) + 0.04, 0.01), (x, 0, h - 0.005)), "plate"))
-    return parts, h
+        else:
+            edge = rounded_rectangle(a, b, 1.2 * d if self.form == "clipped" else 0.0, 1 if self.straight else 3)
+            spots = [(sx * (a / 2 - 1.4 * d), sy * (b / 2 - 1.4 * d)) for sx, sy in CORNERS]
+            spots = spots[::3] if self.form == "two anchors" else spots
+        holes = tuple(circle(0.58 * d, 8, spot) for spot in spots) if t.style.holes else ()
+        t.bundled("").add("base plate", slab_xy(edge, 0.0, self.thick, holes))
+        if self.anchored:
+            bolts(t, [at(*spot, self.thick) for spot in spots], d, self.thick)
+        return self.thick
+
+
+def bases(count: int | Count, when: Callable[[Any], bool] | None = None) -> tuple[Base, ...]:
+    """Base plates of this many columns."""
+    return each(made(Base), "base plates", count=count, when=when)
+
+
+class Props(Params):
+    """What something long along x from 0 lies on: battens, trestles, columns, pedestals."""
+
+    form: str = among(("battens", "trestles", "columns", "pedestals"), "what it lies on")
+    batten: float = among((0.08, 0.1, 0.14), "side of a batten", "m", when=of_form("battens"))
+    rise: float = between(
+        lambda p: 0.3 if p.form == "pedestals" else 0.5,
+        lambda p: 1.0 if p.form == "pedestals" else 2.6,
+        "height of its top",
+        "m",
+        when=lambda p: p.form != "battens",
+    )
+    leg: str = among(("L", "SHS", "CHS"), "section of a trestle's legs", when=of_form("trestles"))
+    heads: tuple[str, ...] = each(
+        one_of("SHS", "U", "H"), "sections of the trestles' heads", count=2, when=of_form("trestles")
+    )
+    shaft: str = among(ROLLED, "section of the columns", when=of_form("columns"))
+    feet: tuple[Base, ...] = bases(2, when=of_form("columns"))
+
+    @property
+    def top(self) -> float:
+        """Height of what lies on it [m]."""
+        return self.batten or self.rise
+
+    def build(self, t: Table, length: float, wide: float) -> None:
+        """Puts it down for something of a length and width [m]."""
+        h, style, battens = self.top, t.style, self.form == "battens"
+        size = float(np.clip(0.8 * wide, 0.08, 0.2))
+        leg, shaft = (
+            section(one, long, style) if one else None for one, long in ((self.leg, 0.06), (self.shaft, size))
+        )
+        for k, share in enumerate((0.12, 0.88) if battens else (0.04, 0.96)):
+            x = share * length
+            if battens:
+                t.add("beam", box((h, wide + 0.3, h), (x, 0, h / 2)), of="safety")
+            elif self.form == "pedestals":
+                t.add("foundation", box((0.3, max(0.25, wide + 0.1), h), (x, 0, h / 2)))
+            elif leg:
+                y = wide / 2 + 0.15
+                t.add("beam", bar((x, -y, h - 0.04), (x, y, h - 0.04), section(self.heads[k], 0.08, style)))
+                for s, sx in CORNERS:
+                    t.add("post", bar((x + sx * 0.2, s * (y - 0.05), 0), (x, s * (y - 0.05), h - 0.08), leg))
+            elif shaft:
+                low = self.feet[k].build(t.at(x), size + 0.12, size + 0.12)
+                t.add("column", bar((x, 0, low), (x, 0, h - 0.01), shaft))
+                t.add("plate", box((size + 0.04, max(size, wide) + 0.04, 0.01), (x, 0, h - 0.005)))
+
+
+def grid(w: float, d: float, thick: float, counts: tuple[int, int], bars: tuple[float, float]) -> Solid:
+    """A lattice of bars about the origin on z = 0, with so many meshes each way [m]."""
+    lows = [np.linspace(0, span - bar_, n + 1) for span, n, bar_ in zip((w, d), counts, bars, strict=True)]
+    xs, ys = (
+        np.sort(np.concatenate([low, low + bar_])) - span / 2
+        for low, span, bar_ in zip(lows, (w, d), bars, strict=True)
+    )
+    filled = np.zeros((len(xs) - 1, len(ys) - 1), bool)
+    filled[::2], filled[:, ::2] = True, True
+    return lattice(xs, ys, filled, 0.0, thick)
 
 
 def lug(style: ModelingStyle, size: float, thick: float) -> Solid:

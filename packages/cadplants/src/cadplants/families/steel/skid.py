@@ -2,431 +2,441 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
-from cadplants.families.chance import pick
+from cadplants.builder.device import families_of
+from cadplants.builder.params import Params, Source, among, between, chance, given, nested, whole
+from cadplants.builder.table import Table, outline
 from cadplants.families.steel.shape import (
+    BOTH,
+    CORNERS,
     Section,
+    Structure,
     bar,
-    bolted,
-    chance,
-    drawn,
+    bolts,
+    each,
     few_sides,
-    floor_family,
+    grid,
     lug,
-    num,
-    piece,
+    number,
+    of_form,
     pipe,
+    rect,
     ribbon,
     section,
     slab_xy,
     slab_xz,
     slab_yz,
     span_of,
+    spread,
 )
-from cadplants.family import Family, Model, Part
-from cadplants.mesh_ops import Solid, lattice, merge, moved
-from cadplants.modeling_style import ModelingStyle
+from cadplants.family import Model
+from cadplants.mesh_ops import Solid, moved
 from cadplants.polygon import circle, rounded_rectangle
-from cadplants.primitives import along, box, cylinder, ring, turned
+from cadplants.primitives import box, cylinder, ring, turned
 from cadplants.transforms import at, spun
 
 __all__ = ["SKIDS"]
 
+_SKID = "skid frame"
 
-def _frame(a: float, b: float, one: Section, ties: int, z: float) -> tuple[list[Solid], float]:
-    """Two runners along x, ends and cross members between them, from ``z`` up; and the height of their top [m]."""
+
+def _frame(a: float, b: float, one: Section, ties: int) -> tuple[list[Solid], float]:
+    """Two runners along x, ends and cross members between them, from z = 0 up; and the height of their top [m]."""
     x0, x1, y0, y1 = span_of(one)
-    level, half = z - y0, (x1 - x0) / 2
+    level, half = -y0, (x1 - x0) / 2
     outer = bar((a / 2, b / 2, level), (-a / 2, b / 2, level), one)
     # The other runner is its mirror image, so that channels turn their backs outward on both sides.
     runners = [outer, moved(outer, np.diag([1.0, -1.0, 1.0, 1.0]))]
     reach = b / 2 - half
     for x in np.linspace(-a / 2 + half, a / 2 - half, ties):
         runners.append(bar((x, -reach, level), (x, reach, level), one))
-    return runners, z + y1 - y0
+    return runners, y1 - y0
 
 
-def _deck(a: float, b: float, z: float, style: ModelingStyle, rng: np.random.Generator) -> list[Part]:
+class Deck(Params):
     """What lies on a frame: nothing, a plate, a plate with openings, a grating, a chequered plate."""
-    kind = int(rng.integers(5))
-    if kind == 0:
-        return []
-    if kind == 3:
-        nx, ny = int(np.clip(a / 0.1, 4, 14)), int(np.clip(b / 0.04, 5, 20))
-        xs = (
-            np.sort(np.concatenate([np.linspace(0, a - 0.006, nx + 1), np.linspace(0, a - 0.006, nx + 1) + 0.006]))
-            - a / 2
-        )
-        ys = (
-            np.sort(np.concatenate([np.linspace(0, b - 0.004, ny + 1), np.linspace(0, b - 0.004, ny + 1) + 0.004]))
-            - b / 2
-        )
-        filled = np.zeros((len(xs) - 1, len(ys) - 1), bool)
-        filled[::2], filled[:, ::2] = True, True
-        return [piece(lattice(xs, ys, filled, z, z + 0.03), "grating", "clamp")]
-    holes = (
-        tuple(circle(num(rng, 0.03, 0.08), few_sides(style, 0.08), (s * 0.25 * a, 0.0)) for s in (-1, 1))
-        if kind == 2
-        else ()
+
+    form: str = among(("bare", "plate", "openings", "grating", "plate"), "what it is")
+    radii: tuple[float, ...] = each(number(0.03, 0.08), "of an opening", "m", count=2, when=of_form("openings"))
+    called: str = among(
+        ("plate", _SKID), "what a plate is called", when=lambda p: p.form in ("plate", "openings"), otherwise=""
     )
-    name = pick(rng, "plate", "skid frame")
-    return [
-        piece(
-            slab_xy(rounded_rectangle(a, b, 0.0), z, z + 0.008, holes),
-            name,
-            "steel",
-            "skid frame" if name != "plate" else "",
-        )
-    ]
+
+    def build(self, t: Table, a: float, b: float) -> float:
+        """Puts it down on z = 0, of two sides; the height of its top [m]."""
+        if self.form == "bare":
+            return 0.0
+        if self.form == "grating":
+            counts = int(np.clip(a / 0.1, 4, 14)), int(np.clip(b / 0.04, 5, 20))
+            t.add("grating", grid(a, b, 0.03, counts, (0.006, 0.004)), of="clamp")
+            return 0.03
+        n = few_sides(t.style, 0.08)
+        holes = tuple(circle(r, n, (s * 0.25 * a, 0.0)) for r, s in zip(self.radii, BOTH, strict=False))
+        own = t.bundled("" if self.called == "plate" else _SKID)
+        own.add(self.called, slab_xy(rect(a, b), 0.0, 0.008, holes))
+        return 0.008
 
 
-def _lugs(a: float, b: float, z: float, style: ModelingStyle, rng: np.random.Generator) -> list[Part]:
+class Lugs(Params):
     """Lifting eyes on top of the corners, or trunnions of pipe at the sides, or none."""
-    kind, size = int(rng.integers(3)), num(rng, 0.06, 0.11)
-    corners = [(sx, sy) for sx in (-1, 1) for sy in (-1, 1)]
-    if kind == 0:
-        return []
-    if kind == 1:
-        return [
-            piece(moved(lug(style, size, 0.015), at(sx * (a / 2 - 0.09), sy * b / 2, z)), "lifting lug")
-            for sx, sy in corners
-        ]
-    n = few_sides(style, 0.04, 16)
-    stub = merge([cylinder(0.04, 0, 0.1, n), ring(0.03, 0.06, 0.1, 0.112, n)])
-    return [
-        piece(along("y" if sy > 0 else "-y", stub, sx * 0.35 * a, sy * b / 2, z - 0.08), "lifting lug")
-        for sx, sy in corners
-    ]
+
+    form: str = among(("none", "eyes", "trunnions"), "what they are")
+    size: float = between(0.06, 0.11, "width of an eye, if it has such", "m")
+
+    def build(self, t: Table, a: float, b: float) -> None:
+        """Puts them down on a frame of two sides whose top is on z = 0 [m]."""
+        n = few_sides(t.style, 0.04, 16)
+        stub = [cylinder(0.04, 0, 0.1, n), ring(0.03, 0.06, 0.1, 0.112, n)]
+        for sx, sy in CORNERS:
+            if self.form == "eyes":
+                t.at(sx * (a / 2 - 0.09), sy * b / 2).add("lifting lug", lug(t.style, self.size, 0.015), of="steel")
+            elif self.form == "trunnions":
+                side = t.at(sx * 0.35 * a, sy * b / 2, -0.08).along("y" if sy > 0 else "-y")
+                side.add("lifting lug", *stub, of="steel")
 
 
-def _payload(
-    a: float, b: float, z: float, style: ModelingStyle, rng: np.random.Generator, decked: bool = True
-) -> list[Part]:
+def _some(p: Any) -> bool:
+    return bool(p.form != "nothing")
+
+
+class Payload(Params):
     """Steel that stands on a skid: a panel stand, an upright frame, plinths, a railing bow; or nothing."""
-    kind = int(rng.integers(5)) if decked else pick(rng, 0, 3)
-    if kind == 0:
-        return []
-    one = drawn(rng, style, num(rng, 0.05, 0.08), ("SHS", "U", "L", "CHS", "strut"))
-    h = num(rng, 0.6, 1.8)
-    if kind == 1:
-        x = 0.35 * a
-        parts = [piece(bar((x, y, z), (x, y, z + h), one), "post") for y in (-0.3 * b, 0.3 * b)]
-        return [
-            *parts,
-            piece(box((0.004, 0.7 * b, 0.5 * h), (x - span_of(one)[2] + 0.002, 0, z + 0.7 * h)), "plate", "clamp"),
-        ]
-    if kind == 2:
-        xs, ys = (-0.44 * a, 0.44 * a), (-0.42 * b, 0.42 * b)
-        parts = [piece(bar((x, y, z), (x, y, z + h), one), "column") for x in xs for y in ys]
-        level = z + h + span_of(one)[3]
-        parts += [piece(bar((xs[0], y, level), (xs[1], y, level), one), "beam") for y in ys]
-        parts += [piece(bar((x, ys[0], level), (x, ys[1], level), one), "beam") for x in xs]
-        if chance(rng, 0.5):
-            parts += [piece(bar((xs[0], y, z), (xs[1], y, z + h), section("L", 0.04, style)), "brace") for y in ys]
-        return parts
-    if kind == 3:
-        level, xs = z - span_of(one)[2], (-0.2 * a, 0.2 * a)
-        return [piece(bar((x, -0.5 * b, level), (x, 0.5 * b, level), one), "beam") for x in xs]
-    path = [
-        (-0.4 * a, -0.45 * b, z),
-        (-0.4 * a, -0.45 * b, z + h),
-        (0.4 * a, -0.45 * b, z + h),
-        (0.4 * a, -0.45 * b, z),
-    ]
-    return [piece(pipe(path, 0.021, style, 0.12), "railing", "safety")]
 
-
-def _welded(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
-    """A skid of welded I, channel or hollow sections with cross members and sledge ends (common package practice)."""
-    a, b = num(rng, 1.0, 4.0), num(rng, 0.6, 2.0)
-    one = drawn(rng, style, num(rng, 0.08, 0.22), ("H", "I", "U", "RHS", "SHS", "IPN"))
-    solids, top = _frame(a, b, one, int(rng.integers(2, 6)), 0.0)
-    if chance(rng, 0.35):
-        toe = [(0, 0.0), (0.25, 0.6 * top), (0.25, top), (0, top)]
-        for s in (-1, 1):
-            for sy in (-1, 1):
-                nose = moved(slab_xz(toe, 0.06), at(s * a / 2, sy * b / 2) @ spun("z", 0 if s > 0 else np.pi))
-                solids.append(nose)
-    if chance(rng, 0.3):
-        parts = [piece(merge(solids), "skid frame", bundle="skid frame")]
-    else:
-        parts = [piece(one_, "skid frame", bundle="skid frame") for one_ in solids]
-    deck = _deck(a, b, top, style, rng)
-    high = max([top, *(float(p.solid.vertices[:, 2].max()) for p in deck)])
-    parts += [*deck, *_lugs(a, b, top, style, rng), *_payload(a, b, high, style, rng, bool(deck))]
-    if chance(rng, 0.4):
-        spots = [
-            at(sx * (a / 2 - 0.08), sy * (b / 2 + 0.06 - span_of(one)[0]), 0.012) for sx in (-1, 1) for sy in (-1, 1)
-        ]
-        parts += [piece(moved(box((0.12, 0.12, 0.012), (0, 0, -0.006)), spot), "base plate") for spot in spots]
-        parts += bolted(spots, 0.016, style, 0.012)
-    return Model(parts)
-
-
-def _forked(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
-    """A channel frame with forklift pockets (hollow sections through the runners) and a deck."""
-    a, b = num(rng, 0.8, 2.4), num(rng, 0.7, 1.5)
-    h = num(rng, 0.12, 0.2)
-    one = section(pick(rng, "U", "RHS"), h, style)
-    runners, top = _frame(a, b, one, 2, 0.0)
-    pocket_h, pocket_w = 0.6 * h, pick(rng, 0.15, 0.2)
-    pocket = rounded_rectangle(pocket_w, pocket_h, 0.0)
-    hole = (rounded_rectangle(pocket_w - 0.016, pocket_h - 0.016, 0.0),)
-    reach, apart = b / 2 - span_of(one)[0] + 0.01, min(0.28 * a, 0.45)
-    solids = [*runners, *(bar((x, -reach, h / 2), (x, reach, h / 2), (pocket, hole)) for x in (-apart, apart))]
-    parts = [piece(one_, "skid frame", bundle="skid frame") for one_ in solids]
-    deck = _deck(a, b, top, style, rng)
-    high = max([top, *(float(p.solid.vertices[:, 2].max()) for p in deck)])
-    return Model([*parts, *deck, *_payload(a, b, high, style, rng, bool(deck))])
-
-
-def _cage(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
-    """A frame of a box: base of tubes, corner columns, top rails, braces; or with ISO 1161 corners."""
-    a, b, h = num(rng, 0.6, 3.0), num(rng, 0.5, 1.6), num(rng, 0.6, 2.2)
-    iso = chance(rng, 0.4)
-    size = num(rng, 0.06, 0.12)
-    one = drawn(rng, style, size, ("SHS", "SHS", "L", "U") if not iso else ("SHS",))
-    half = size / 2
-    c = 0.162 if iso else 0.0
-    parts: list[Part] = []
-    xs, ys = (-a / 2, a / 2), (-b / 2, b / 2)
-    low, high = (c / 2, h - c / 2) if iso else (half, h - half)
-    for x in xs:
-        for y in ys:
-            ends = (c, h - c) if iso else (2 * half, h - 2 * half)
-            parts.append(piece(bar((x, y, ends[0]), (x, y, ends[1]), one), "column"))
-            if iso:
-                for z in (c / 2, h - c / 2):
-                    casting = [box((c, c, c), (x, y, z))]
-                    casting.append(box((0.08, c + 0.004, 0.05), (x, y, z)))
-                    parts.append(piece(merge(casting), "lifting lug" if z > c else "skid frame", "clamp"))
-    g = c / 2 if iso else 0.0
-    for z, name in ((low, "skid frame"), (high, "beam")):
-        parts += [piece(bar((xs[0] + g, y, z), (xs[1] - g, y, z), one), name) for y in ys]
-        parts += [piece(bar((x, ys[0] + max(g, half), z), (x, ys[1] - max(g, half), z), one), name) for x in xs]
-    for x in np.linspace(xs[0], xs[1], int(rng.integers(2, 5)))[1:-1]:
-        parts.append(piece(bar((x, ys[0] + half, low), (x, ys[1] - half, low), one), "skid frame"))
-    if chance(rng, 0.5):
-        thin = section(pick(rng, "flat", "L", "CHS"), 0.04, style)
-        parts += [piece(bar((xs[0] + half, y, low + half), (xs[1] - half, y, high - half), thin), "brace") for y in ys]
-    if chance(rng, 0.4):
-        z = low + half
-        parts.append(piece(box((a - size, b - size, 0.006), (0, 0, z - 0.004)), "plate", "clamp"))
-    return Model(parts)
-
-
-def _tray(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
-    """A drip tray as a base: a folded pan on feet or runners with a grating or bearers in it and a drain."""
-    a, b, deep = num(rng, 0.6, 2.4), num(rng, 0.5, 1.4), num(rng, 0.06, 0.25)
-    low, t = num(rng, 0.05, 0.15), 0.004
-    lip = ribbon(
-        [
-            (-b / 2 - 0.02, deep - 0.02),
-            (-b / 2, deep),
-            (-b / 2, 0),
-            (b / 2, 0),
-            (b / 2, deep),
-            (b / 2 + 0.02, deep - 0.02),
-        ],
-        t,
-        0.01,
-        2,
+    decked: bool = given(True, "whether it stands on a deck")
+    form: str = among(
+        lambda p: ("nothing", "panel stand", "frame", "plinths", "bow") if p.decked else ("nothing", "plinths"),
+        "what it is",
     )
-    solids = [moved(slab_yz(lip, a, 0.0), at(0, 0, low))]
-    solids += [box((t, b + t, deep), (s * (a / 2 + t / 2), 0, low + deep / 2)) for s in (-1, 1)]
-    parts = [piece(merge(solids), "skid frame", bundle="skid frame")]
-    if chance(rng, 0.5):
-        parts += [
-            piece(box((0.06, 0.06, low), (sx * 0.42 * a, sy * 0.4 * b, low / 2 - t / 2)), "post", bundle="")
-            for sx in (-1, 1)
-            for sy in (-1, 1)
-        ]
-    else:
-        runner = box((a, 0.06, low - t / 2), (0, 0, (low - t / 2) / 2))
-        parts += [piece(moved(runner, at(0, s * 0.38 * b)), "skid frame", bundle="skid frame") for s in (-1, 1)]
-    parts += [
-        piece(box((0.05, b - t, deep - 0.03), (x, 0, low + (deep - 0.03) / 2)), "beam")
-        for x in np.linspace(-0.35 * a, 0.35 * a, 3)
-    ]
-    parts += [p for p in _deck(a - 0.03, b - 0.03, low + deep - 0.03, style, rng) if p.name != "skid frame"]
-    return Model(parts)
+    size: float = between(0.05, 0.08, "height of its section", "m", when=_some)
+    shape: str = among(("SHS", "U", "L", "CHS", "strut"), "its section", when=_some)
+    height: float = between(0.6, 1.8, "of what stands there", "m", when=_some)
+    braced: bool = chance(0.5, "the frame is braced", when=of_form("frame"))
 
+    @classmethod
+    def on(cls, source: Source, p: Any) -> Payload:
+        """Drawn for what may have a deck."""
+        return cls.draw(source, {"decked": p.deck.form != "bare"})
 
-def _pallet(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
-    """A pallet: timber (EN 13698-1), steel with a folded deck, or plastic with nine feet."""
-    a, b = pick(rng, (1.2, 0.8), (1.2, 1.0), (0.8, 0.6), (1.1, 1.1))
-    kind = int(rng.integers(3))
-    solids: list[Solid] = []
-    color = "safety" if kind == 0 else "clamp" if kind == 1 else "motor"
-    if kind == 0:
-        wide = pick(rng, 0.1, 0.145)
-        ys = np.linspace(-b / 2 + wide / 2, b / 2 - wide / 2, 3)
-        solids += [box((a, 0.1, 0.022), (0, y, 0.011)) for y in ys]
-        solids += [box((0.145, 0.1, 0.078), (x, y, 0.061)) for x in (-a / 2 + 0.0725, 0, a / 2 - 0.0725) for y in ys]
-        solids += [box((0.145, b, 0.022), (x, 0, 0.111)) for x in (-a / 2 + 0.0725, 0, a / 2 - 0.0725)]
-        solids += [box((a, wide, 0.022), (0, y, 0.133)) for y in np.linspace(-b / 2 + wide / 2, b / 2 - wide / 2, 5)]
-        top = 0.144
-    elif kind == 1:
-        hat = ribbon([(-0.09, 0.1), (-0.05, 0.1), (-0.05, 0.0), (0.05, 0.0), (0.05, 0.1), (0.09, 0.1)], 0.003)
-        solids += [moved(slab_yz(hat, a), at(0, y, 0.0015)) for y in (-b / 2 + 0.09, 0, b / 2 - 0.09)]
-        solids.append(box((a, b, 0.003), (0, 0, 0.1045)))
-        top = 0.106
-    else:
-        foot = turned([(0.06, 0), (0.075, 0.11)], pick(rng, 4, 12), np.pi / 4)
-        solids += [moved(foot, at(x, y)) for x in (-0.42 * a, 0, 0.42 * a) for y in (-0.4 * b, 0, 0.4 * b)]
-        solids.append(slab_xy(rounded_rectangle(a, b, 0.04, 3), 0.11, 0.15))
-        top = 0.15
-    joined = chance(rng, 0.4)
-    parts = (
-        [piece(merge(solids), "skid frame", color)]
-        if joined
-        else [piece(s, "skid frame", color, "skid frame") for s in solids]
-    )
-    return Model([*parts, *_payload(0.9 * a, 0.9 * b, top, style, rng)])
-
-
-def _folded(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
-    """A base of one sheet: a bent channel plate with flanges, holes and slots, on rubber feet (small units)."""
-    a, b, h, t = num(rng, 0.4, 1.6), num(rng, 0.25, 0.7), num(rng, 0.05, 0.12), num(rng, 0.003, 0.008)
-    foot = num(rng, 0.02, 0.05)
-    line = [(b / 2 - foot, 0), (b / 2, 0), (b / 2, h), (-b / 2, h), (-b / 2, 0), (-b / 2 + foot, 0)]
-    outward = chance(rng, 0.5)
-    if outward:
-        line = [(b / 2 + foot, 0), (b / 2, 0), (b / 2, h), (-b / 2, h), (-b / 2, 0), (-b / 2 - foot, 0)]
-    low = pick(rng, 0.0, 0.025, 0.06) + t / 2
-    parts = [piece(moved(slab_yz(ribbon(line, t, 0.012, 2), a), at(0, 0, low)), "skid frame", bundle="skid frame")]
-    for s in (-1, 1):
-        parts.append(
-            piece(
-                box((0.004, b - 2 * t, h - t), (s * (a / 2 - 0.03), 0, low + h / 2)), "skid frame", bundle="skid frame"
-            )
-        )
-    y = b / 2 + (foot / 2 if outward else -foot / 2)
-    for sx in (-1, 1):
-        for sy in (-1, 1):
-            if low > 0.02:
-                puck = turned([(0.02, 0), (0.024, 0.3 * low), (0.016, low - t / 2)], few_sides(style, 0.02, 14))
-                parts.append(piece(moved(puck, at(sx * 0.42 * a, sy * y)), "base plate", "rubber"))
-    for x in (-0.25 * a, 0.2 * a):
-        parts.append(piece(box((0.15 * a, 0.5 * b, 0.03), (x, 0, low + h + t / 2 + 0.015)), "plate", "steel"))
-    return Model(parts)
-
-
-def _sledge(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
-    """A sledge: runners of pipe with mitred ends or of timber, cross pipes, a deck and a tow bar (field units)."""
-    a, b, r = num(rng, 1.2, 4.0), num(rng, 0.8, 1.8), num(rng, 0.05, 0.11)
-    parts: list[Part] = []
-    timber = chance(rng, 0.3)
-    for s in (-1, 1):
-        if timber:
-            toe = [
-                (-a / 2, 0.6 * r),
-                (-a / 2 + 0.2, 0),
-                (a / 2 - 0.2, 0),
-                (a / 2, 0.6 * r),
-                (a / 2, 2 * r),
-                (-a / 2, 2 * r),
-            ]
-            runner = slab_xz(toe, 1.6 * r, s * b / 2)
+    def build(self, t: Table, a: float, b: float) -> None:
+        """Puts it down on z = 0, within two sides [m]."""
+        if self.form == "nothing":
+            return
+        one, h = section(self.shape, self.size, t.style), self.height
+        _x0, _x1, y0, y1 = span_of(one)
+        if self.form == "panel stand":
+            x = 0.35 * a
+            spread(t, "post", [bar((x, s * 0.3 * b, 0), (x, s * 0.3 * b, h), one) for s in BOTH])
+            t.add("plate", box((0.004, 0.7 * b, 0.5 * h), (x - y0 + 0.002, 0, 0.7 * h)), of="clamp")
+        elif self.form == "frame":
+            x, y, level = 0.44 * a, 0.42 * b, h + y1
+            spread(t, "column", [bar((sx * x, sy * y, 0), (sx * x, sy * y, h), one) for sx, sy in CORNERS])
+            spread(t, "beam", [bar((-x, s * y, level), (x, s * y, level), one) for s in BOTH])
+            spread(t, "beam", [bar((s * x, -y, level), (s * x, y, level), one) for s in BOTH])
+            thin = section("L", 0.04, t.style)
+            spread(t, "brace", [bar((-x, s * y, 0), (x, s * y, h), thin) for s in BOTH if self.braced])
+        elif self.form == "plinths":
+            spread(t, "beam", [bar((s * 0.2 * a, -0.5 * b, -y0), (s * 0.2 * a, 0.5 * b, -y0), one) for s in BOTH])
         else:
-            path = [
-                (-a / 2 - 0.25, s * b / 2, r + 0.25),
-                (-a / 2, s * b / 2, r),
-                (a / 2, s * b / 2, r),
-                (a / 2 + 0.25, s * b / 2, r + 0.25),
-            ]
-            runner = pipe(path, r, style, 0.15, 0.1 * r)
-        parts.append(piece(runner, "skid frame", "safety" if timber else "steel", "skid frame"))
-    tie = section("timber" if timber else "CHS", 1.4 * r, style)
-    for x in np.linspace(-0.45 * a, 0.45 * a, int(rng.integers(3, 6))):
-        z = 2 * r + 0.7 * r if timber else r
-        reach = b / 2 + (0.1 if timber else -0.9 * r)
-        parts.append(
-            piece(bar((x, -reach, z), (x, reach, z), tie), "skid frame", "safety" if timber else "steel", "skid frame")
-        )
-    if not timber:
-        parts.append(
-            piece(
-                pipe([(a / 2 + 0.2, -b / 2, r + 0.2), (a / 2 + 0.2, b / 2, r + 0.2)], 0.7 * r, style),
-                "skid frame",
-                bundle="skid frame",
-            )
-        )
-    top = 3.4 * r if timber else 2 * r
-    deck = _deck(0.95 * a, b, top, style, rng)
-    high = max([top, *(float(p.solid.vertices[:, 2].max()) for p in deck)])
-    return Model([*parts, *deck, *_payload(0.9 * a, b, high, style, rng, bool(deck))])
+            path = [(s * 0.4 * a, -0.45 * b, z) for s, z in ((-1, 0), (-1, h), (1, h), (1, 0))]
+            t.add("railing", pipe(path, 0.021, t.style, 0.12))
 
 
-def _table(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
-    """A small equipment frame or machine table: legs with feet, rails, a top plate, shelves, knee or cross braces."""
-    a, b, h = num(rng, 0.35, 1.6), num(rng, 0.3, 0.9), num(rng, 0.3, 1.1)
-    one = drawn(rng, style, num(rng, 0.03, 0.07), ("SHS", "SHS", "L", "CHS", "U"))
-    half, foot = float(np.ptp(one[0][:, 1])) / 2, pick(rng, 0.0, 0.05)
-    parts: list[Part] = []
-    for sx in (-1, 1):
-        for sy in (-1, 1):
-            x, y = sx * a / 2, sy * b / 2
-            parts.append(piece(bar((x, y, foot or 0.008), (x, y, h), one), "column"))
-            n = few_sides(style, 0.03, 16)
-            levelling = [(0.03, 0), (0.03, 0.008), (0.009, 0.016), (0.009, 0.042), (half, 0.042), (half, 0.05)]
-            if foot:
-                parts.append(piece(moved(turned(levelling, n), at(x, y)), "base plate", "trim"))
-                parts.append(
-                    piece(moved(cylinder(0.007, 0.01, foot + 0.01, 8), at(x, y)), "stud", "fastener", fine=True)
-                )
+class Welded(Structure, name="skid frame/welded", weight=2.0):
+    """A skid of welded I, channel or hollow sections with cross members and sledge ends (common package practice)."""
+
+    length: float = between(1.0, 4.0, "of the skid", "m")
+    width: float = between(0.6, 2.0, "of the skid", "m")
+    size: float = between(0.08, 0.22, "height of the section", "m")
+    shape: str = among(("H", "I", "U", "RHS", "SHS", "IPN"), "section")
+    ties: int = whole(2, 5, "cross members")
+    toed: bool = chance(0.35, "sledge ends on the runners")
+    joined: bool = chance(0.3, "the frame is one mesh")
+    deck: Deck = nested(Deck, "what lies on it")
+    lugs: Lugs = nested(Lugs, "what it is lifted by")
+    payload: Payload = nested(Payload.on, "what stands on it")
+    bolted: bool = chance(0.4, "bolted down by plates at its corners")
+
+    def build(self, t: Table) -> Model:
+        a, b, one = self.length, self.width, section(self.shape, self.size, t.style)
+        solids, top = _frame(a, b, one, self.ties)
+        if self.toed:
+            toe = slab_xz([(0, 0.0), (0.25, 0.6 * top), (0.25, top), (0, top)], 0.06)
+            poses = [at(sx * a / 2, sy * b / 2) @ spun("z", 0 if sx > 0 else np.pi) for sx, sy in CORNERS]
+            solids += [moved(toe, pose) for pose in poses]
+        spread(t.bundled(_SKID), _SKID, solids, joined=self.joined)
+        up = t.at(0, 0, top)
+        deck = self.deck.build(up, a, b)
+        self.lugs.build(up, a, b)
+        self.payload.build(up.at(0, 0, deck), a, b)
+        if self.bolted:
+            x, y = a / 2 - 0.08, b / 2 + 0.06 - span_of(one)[0]
+            spots = [at(sx * x, sy * y, 0.012) for sx, sy in CORNERS]
+            spread(t, "base plate", [moved(box((0.12, 0.12, 0.012), (0, 0, -0.006)), spot) for spot in spots])
+            bolts(t, spots, 0.016, 0.012)
+        return t.model()
+
+
+class Forked(Structure, name="skid frame/fork pockets", weight=1.3):
+    """A channel frame with forklift pockets (hollow sections through the runners) and a deck."""
+
+    length: float = between(0.8, 2.4, "of the frame", "m")
+    width: float = between(0.7, 1.5, "of the frame", "m")
+    size: float = between(0.12, 0.2, "height of the section", "m")
+    shape: str = among(("U", "RHS"), "section")
+    pocket: float = among((0.15, 0.2), "width of a pocket", "m")
+    deck: Deck = nested(Deck, "what lies on it")
+    payload: Payload = nested(Payload.on, "what stands on it")
+
+    def build(self, t: Table) -> Model:
+        a, b, h, one = self.length, self.width, self.size, section(self.shape, self.size, t.style)
+        solids, top = _frame(a, b, one, 2)
+        pocket = rect(self.pocket, 0.6 * h), (rect(self.pocket - 0.016, 0.6 * h - 0.016),)
+        reach, apart = b / 2 - span_of(one)[0] + 0.01, min(0.28 * a, 0.45)
+        solids += [bar((s * apart, -reach, h / 2), (s * apart, reach, h / 2), pocket) for s in BOTH]
+        spread(t.bundled(_SKID), _SKID, solids)
+        up = t.at(0, 0, top)
+        self.payload.build(up.at(0, 0, self.deck.build(up, a, b)), a, b)
+        return t.model()
+
+
+class Cage(Structure, name="skid frame/cage", weight=1.3, grain="fitting"):
+    """A frame of a box: base of tubes, corner columns, top rails, braces; or with ISO 1161 corners."""
+
+    length: float = between(0.6, 3.0, "of the box", "m")
+    width: float = between(0.5, 1.6, "of the box", "m")
+    height: float = between(0.6, 2.2, "of the box", "m")
+    iso: bool = chance(0.4, "with container corners")
+    size: float = between(0.06, 0.12, "height of the section", "m")
+    shape: str = among(lambda p: ("SHS",) if p.iso else ("SHS", "SHS", "L", "U"), "section")
+    ties: int = whole(2, 4, "cross members with the ends")
+    braced: bool = chance(0.5, "with braces")
+    brace: str = among(("flat", "L", "CHS"), "section of the braces", when=lambda p: p.braced)
+    floored: bool = chance(0.4, "a plate in it")
+
+    def build(self, t: Table) -> Model:
+        a, b, h, one, half = (
+            self.length,
+            self.width,
+            self.height,
+            section(self.shape, self.size, t.style),
+            self.size / 2,
+        )
+        c = 0.162 if self.iso else 0.0
+        xs, ys, low, end = (-a / 2, a / 2), (-b / 2, b / 2), c / 2 or half, c or 2 * half
+        for x in xs:
+            for y in ys:
+                t.add("column", bar((x, y, end), (x, y, h - end), one))
+                for z, name in ((c / 2, _SKID), (h - c / 2, "lifting lug")) if self.iso else ():
+                    t.add(name, box((c, c, c), (x, y, z)), box((0.08, c + 0.004, 0.05), (x, y, z)), of="clamp")
+        g, reach = c / 2, b / 2 - max(c / 2, half)
+        for z, name in ((low, _SKID), (h - low, "beam")):
+            spread(t, name, [bar((xs[0] + g, y, z), (xs[1] - g, y, z), one) for y in ys])
+            spread(t, name, [bar((x, -reach, z), (x, reach, z), one) for x in xs])
+        for x in np.linspace(*xs, self.ties)[1:-1]:
+            t.add(_SKID, bar((x, ys[0] + half, low), (x, ys[1] - half, low), one))
+        if self.braced:
+            thin = section(self.brace, 0.04, t.style)
+            x, z = a / 2 - half, low + half
+            spread(t, "brace", [bar((-x, y, z), (x, y, h - z), thin) for y in ys])
+        if self.floored:
+            plate = box((a - self.size, b - self.size, 0.006), (0, 0, low + half - 0.004))
+            t.add("plate", plate, of="clamp")
+        return t.model()
+
+
+class Tray(Structure, name="skid frame/drip tray", weight=1.2):
+    """A drip tray as a base: a folded pan on feet or runners with a grating or bearers in it and a drain."""
+
+    length: float = between(0.6, 2.4, "of the tray", "m")
+    width: float = between(0.5, 1.4, "of the tray", "m")
+    deep: float = between(0.06, 0.25, "depth of the tray", "m")
+    low: float = between(0.05, 0.15, "height of its underside", "m")
+    feet: bool = chance(0.5, "on feet, not runners")
+    deck: Deck = nested(Deck, "what lies in it")
+
+    def build(self, t: Table) -> Model:
+        a, b, deep, low, thick = self.length, self.width, self.deep, self.low, 0.004
+        half = [(b / 2, 0.0), (b / 2, deep), (b / 2 + 0.02, deep - 0.02)]
+        lip = ribbon([*((-y, z) for y, z in half[::-1]), *half], thick, 0.01, 2)
+        ends = [box((thick, b + thick, deep), (s * (a / 2 + thick / 2), 0, low + deep / 2)) for s in BOTH]
+        own = t.bundled(_SKID)
+        own.add(_SKID, moved(slab_yz(lip, a, 0.0), at(0, 0, low)), *ends)
+        if self.feet:
+            spots = [(sx * 0.42 * a, sy * 0.4 * b, low / 2 - thick / 2) for sx, sy in CORNERS]
+            spread(t, "post", [box((0.06, 0.06, low), spot) for spot in spots])
+        else:
+            tall = low - thick / 2
+            spread(own, _SKID, [box((a, 0.06, tall), (0, s * 0.38 * b, tall / 2)) for s in BOTH])
+        size = (0.05, b - thick, deep - 0.03)
+        spread(t, "beam", [box(size, (x, 0, low + size[2] / 2)) for x in np.linspace(-0.35 * a, 0.35 * a, 3)])
+        if self.deck.called != _SKID:
+            self.deck.build(t.at(0, 0, low + deep - 0.03), a - 0.03, b - 0.03)
+        return t.model()
+
+
+class Pallet(Structure, name="skid frame/pallet", weight=0.8):
+    """A pallet: timber (EN 13698-1), steel with a folded deck, or plastic with nine feet."""
+
+    size: tuple[float, float] = among(((1.2, 0.8), (1.2, 1.0), (0.8, 0.6), (1.1, 1.1)), "length and width", "m")
+    material: str = among(("timber", "steel", "plastic"), "what it is of")
+    board: float = among((0.1, 0.145), "width of a board", "m", when=lambda p: p.material == "timber")
+    sides: int = among((4, 12), "sides of a foot", when=lambda p: p.material == "plastic")
+    joined: bool = chance(0.4, "in one mesh")
+    payload: Payload = nested(Payload, "what stands on it")
+
+    def build(self, t: Table) -> Model:
+        a, b = self.size
+        solids, of, top = {"timber": self._timber, "steel": self._steel, "plastic": self._plastic}[self.material](a, b)
+        spread(t.bundled("" if self.joined else _SKID), _SKID, solids, of=of, joined=self.joined)
+        self.payload.build(t.at(0, 0, top), 0.9 * a, 0.9 * b)
+        return t.model()
+
+    def _timber(self, a: float, b: float) -> tuple[list[Solid], str, float]:
+        wide, xs = self.board, (-a / 2 + 0.0725, 0, a / 2 - 0.0725)
+        three, five = (np.linspace(-b / 2 + wide / 2, b / 2 - wide / 2, n) for n in (3, 5))
+        solids = [box((a, 0.1, 0.022), (0, y, 0.011)) for y in three]
+        solids += [box((0.145, 0.1, 0.078), (x, y, 0.061)) for x in xs for y in three]
+        solids += [box((0.145, b, 0.022), (x, 0, 0.111)) for x in xs]
+        return solids + [box((a, wide, 0.022), (0, y, 0.133)) for y in five], "safety", 0.144
+
+    def _steel(self, a: float, b: float) -> tuple[list[Solid], str, float]:
+        hat = ribbon(outline(-0.09, 0.1, -0.05, 0.1, -0.05, 0.0, 0.05, 0.0, 0.05, 0.1, 0.09, 0.1), 0.003)
+        solids = [moved(slab_yz(hat, a), at(0, y, 0.0015)) for y in (-b / 2 + 0.09, 0, b / 2 - 0.09)]
+        return [*solids, box((a, b, 0.003), (0, 0, 0.1045))], "clamp", 0.106
+
+    def _plastic(self, a: float, b: float) -> tuple[list[Solid], str, float]:
+        foot = turned([(0.06, 0), (0.075, 0.11)], self.sides, np.pi / 4)
+        feet = [moved(foot, at(x, y)) for x in (-0.42 * a, 0, 0.42 * a) for y in (-0.4 * b, 0, 0.4 * b)]
+        return [*feet, slab_xy(rounded_rectangle(a, b, 0.04, 3), 0.11, 0.15)], "motor", 0.15
+
+
+class Folded(Structure, name="skid frame/folded"):
+    """A base of one sheet: a bent channel plate with flanges, holes and slots, on rubber feet (small units)."""
+
+    length: float = between(0.4, 1.6, "of the base", "m")
+    width: float = between(0.25, 0.7, "of the base", "m")
+    high: float = between(0.05, 0.12, "height of the sheet's fold", "m")
+    thick: float = between(0.003, 0.008, "thickness of the sheet", "m")
+    flange: float = between(0.02, 0.05, "width of a flange", "m")
+    outward: bool = chance(0.5, "its flanges are turned outward")
+    foot: float = among((0.0, 0.025, 0.06), "height of a foot", "m")
+
+    def build(self, t: Table) -> Model:
+        a, b, h, thick, low = self.length, self.width, self.high, self.thick, self.foot + self.thick / 2
+        flange, own = self.flange if self.outward else -self.flange, t.bundled(_SKID)
+        half = [(b / 2 + flange, 0), (b / 2, 0), (b / 2, h)]
+        line = ribbon([*half, *((-y, z) for y, z in half[::-1])], thick, 0.012, 2)
+        own.at(0, 0, low).add(_SKID, slab_yz(line, a))
+        size = (0.004, b - 2 * thick, h - thick)
+        spread(own, _SKID, [box(size, (s * (a / 2 - 0.03), 0, low + h / 2)) for s in BOTH])
+        if low > 0.02:
+            foot = outline(0.02, 0, 0.024, 0.3 * low, 0.016, low - thick / 2)
+            puck = turned(foot, few_sides(t.style, 0.02, 14))
+            for sx, sy in CORNERS:
+                t.at(sx * 0.42 * a, sy * (b / 2 + flange / 2)).add("base plate", puck, of="rubber")
+        z = low + h + thick / 2 + 0.015
+        spread(t, "plate", [box((0.15 * a, 0.5 * b, 0.03), (x, 0, z)) for x in (-0.25 * a, 0.2 * a)])
+        return t.model()
+
+
+class Sledge(Structure, name="skid frame/sledge"):
+    """A sledge: runners of pipe with mitred ends or of timber, cross pipes, a deck and a tow bar (field units)."""
+
+    length: float = between(1.2, 4.0, "of a runner", "m")
+    width: float = between(0.8, 1.8, "from runner to runner", "m")
+    radius: float = between(0.05, 0.11, "of a runner", "m")
+    timber: bool = chance(0.3, "of timber, not pipe")
+    ties: int = whole(3, 5, "cross members")
+    deck: Deck = nested(Deck, "what lies on it")
+    payload: Payload = nested(Payload.on, "what stands on it")
+
+    def build(self, t: Table) -> Model:
+        a, b, r, timber, own = self.length, self.width, self.radius, self.timber, t.bundled(_SKID)
+        of = "safety" if timber else "steel"
+        for y in (-b / 2, b / 2):
+            if timber:
+                toe = [(-a / 2, 0.6 * r), (-a / 2 + 0.2, 0), (a / 2 - 0.2, 0), (a / 2, 0.6 * r), (a / 2, 2 * r)]
+                own.add(_SKID, slab_xz([*toe, (-a / 2, 2 * r)], 1.6 * r, y), of=of)
             else:
-                parts.append(piece(box((2 * half + 0.06, 2 * half + 0.06, 0.008), (x, y, 0.004)), "base plate"))
-    for z in (h - half, *((0.25 * h,) if chance(rng, 0.6) else ())):
-        parts += [
-            piece(bar((-a / 2 + 0.4 * half, s * b / 2, z), (a / 2 - 0.4 * half, s * b / 2, z), one), "beam")
-            for s in (-1, 1)
-        ]
-        parts += [
-            piece(bar((s * a / 2, -b / 2 + 0.4 * half, z), (s * a / 2, b / 2 - 0.4 * half, z), one), "beam")
-            for s in (-1, 1)
-        ]
-    if chance(rng, 0.4):
-        thin = section(pick(rng, "flat", "L", "round"), 0.03, style)
-        parts += [
-            piece(bar((-a / 2, s * b / 2, 0.3 * h), (a / 2, s * b / 2, h - 2 * half), thin), "brace") for s in (-1, 1)
-        ]
-    if chance(rng, 0.7):
-        parts.append(piece(box((a + 2 * half + 0.02, b + 2 * half + 0.02, 0.01), (0, 0, h + 0.005)), "plate", "clamp"))
-    return Model(parts)
+                ways = ((-a / 2 - 0.25, r + 0.25), (-a / 2, r), (a / 2, r), (a / 2 + 0.25, r + 0.25))
+                own.add(_SKID, pipe([(x, y, z) for x, z in ways], r, t.style, 0.15, 0.1 * r))
+        tie, z, reach = section("timber" if timber else "CHS", 1.4 * r, t.style), r, b / 2 - 0.9 * r
+        if timber:
+            z, reach = 2.7 * r, b / 2 + 0.1
+        xs = np.linspace(-0.45 * a, 0.45 * a, self.ties)
+        spread(own, _SKID, [bar((x, -reach, z), (x, reach, z), tie) for x in xs], of=of)
+        if not timber:
+            x, z = a / 2 + 0.2, r + 0.2
+            own.add(_SKID, pipe([(x, -b / 2, z), (x, b / 2, z)], 0.7 * r, t.style))
+        up = t.at(0, 0, 3.4 * r if timber else 2 * r)
+        self.payload.build(up.at(0, 0, self.deck.build(up, 0.95 * a, b)), 0.9 * a, b)
+        return t.model()
 
 
-def _inertia(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class MachineTable(Structure, name="frame/table", weight=1.5, grain="fitting"):
+    """A small equipment frame or machine table: legs with feet, rails, a top plate, shelves, knee or cross braces."""
+
+    length: float = between(0.35, 1.6, "from leg to leg", "m")
+    width: float = between(0.3, 0.9, "from leg to leg", "m")
+    height: float = between(0.3, 1.1, "of a leg", "m")
+    size: float = between(0.03, 0.07, "height of the section", "m")
+    shape: str = among(("SHS", "SHS", "L", "CHS", "U"), "section")
+    foot: float = among((0.0, 0.05), "height of a levelling foot; 0: on plates", "m")
+    low: bool = chance(0.6, "rails near the floor too")
+    braced: bool = chance(0.4, "with braces")
+    brace: str = among(("flat", "L", "round"), "section of the braces", when=lambda p: p.braced)
+    topped: bool = chance(0.7, "a plate on top")
+
+    def build(self, t: Table) -> Model:
+        a, b, h, foot, one = self.length, self.width, self.height, self.foot, section(self.shape, self.size, t.style)
+        half, n = float(np.ptp(one[0][:, 1])) / 2, few_sides(t.style, 0.03, 16)
+        levelling = outline(0.03, 0, 0.03, 0.008, 0.009, 0.016, 0.009, 0.042, half, 0.042, half, 0.05)
+        for sx, sy in CORNERS:
+            here = t.at(sx * a / 2, sy * b / 2)
+            here.add("column", bar((0, 0, foot or 0.008), (0, 0, h), one))
+            if foot:
+                here.add("base plate", turned(levelling, n), of="trim")
+                here.add("stud", cylinder(0.007, 0.01, foot + 0.01, 8))
+            else:
+                here.add("base plate", box((2 * half + 0.06, 2 * half + 0.06, 0.008), (0, 0, 0.004)))
+        x, y = a / 2 - 0.4 * half, b / 2 - 0.4 * half
+        for z in (h - half, 0.25 * h)[: 1 + self.low]:
+            spread(t, "beam", [bar((-x, s * b / 2, z), (x, s * b / 2, z), one) for s in BOTH])
+            spread(t, "beam", [bar((s * a / 2, -y, z), (s * a / 2, y, z), one) for s in BOTH])
+        if self.braced:
+            thin, top = section(self.brace, 0.03, t.style), h - 2 * half
+            spread(t, "brace", [bar((-a / 2, s * b / 2, 0.3 * h), (a / 2, s * b / 2, top), thin) for s in BOTH])
+        if self.topped:
+            t.add("plate", box((a + 2 * half + 0.02, b + 2 * half + 0.02, 0.01), (0, 0, h + 0.005)), of="clamp")
+        return t.model()
+
+
+class Grouted(Structure, name="skid frame/grouted", weight=0.8):
     """A grouted skid: channels round a concrete fill on a plinth, bolted down, with sole plates; an inertia base."""
-    a, b, h = num(rng, 0.8, 2.4), num(rng, 0.5, 1.3), num(rng, 0.1, 0.2)
-    low = num(rng, 0.1, 0.4) if chance(rng, 0.7) else 0.06
-    one = section("U", h, style)
-    solids, top = _frame(a, b, one, 2, low)
-    parts = [piece(s, "skid frame", bundle="skid frame") for s in solids]
-    parts.append(piece(box((a - 0.75 * h, b + 0.2 * h, 0.9 * h), (0, 0, low + 0.46 * h)), "foundation", "concrete"))
-    if low > 0.06:
-        parts.append(piece(slab_xy(rounded_rectangle(a + 0.3, b + 0.3, 0.02, 1), 0, low), "foundation", "concrete"))
-    else:
-        spring = merge([cylinder(0.04, 0, low, 10), cylinder(0.05, 0, 0.012, 10)])
-        parts += [
-            piece(moved(spring, at(sx * 0.4 * a, sy * b / 2)), "base plate", "rubber")
-            for sx in (-1, 1)
-            for sy in (-1, 1)
-        ]
-    for x in (-0.25 * a, 0.25 * a):
-        parts.append(piece(box((0.2 * a, 0.6 * b, 0.02), (x, 0, top - 0.08 * h + 0.01)), "plate"))
-    return Model(parts)
+
+    length: float = between(0.8, 2.4, "of the skid", "m")
+    width: float = between(0.5, 1.3, "of the skid", "m")
+    size: float = between(0.1, 0.2, "height of the channels", "m")
+    raised: bool = chance(0.7, "on a plinth, not on springs")
+    low: float = between(0.1, 0.4, "height of the plinth", "m", when=lambda p: p.raised, otherwise=0.06)
+
+    def build(self, t: Table) -> Model:
+        a, b, h, low = self.length, self.width, self.size, self.low
+        solids, top = _frame(a, b, section("U", h, t.style), 2)
+        spread(t.at(0, 0, low).bundled(_SKID), _SKID, solids)
+        t.add("foundation", box((a - 0.75 * h, b + 0.2 * h, 0.9 * h), (0, 0, low + 0.46 * h)))
+        if self.raised:
+            t.add("foundation", slab_xy(rounded_rectangle(a + 0.3, b + 0.3, 0.02, 1), 0, low))
+        else:
+            spring = [cylinder(0.04, 0, low, 10), cylinder(0.05, 0, 0.012, 10)]
+            for sx, sy in CORNERS:
+                t.at(sx * 0.4 * a, sy * b / 2).add("base plate", *spring, of="rubber")
+        z = low + top - 0.08 * h + 0.01
+        spread(t, "plate", [box((0.2 * a, 0.6 * b, 0.02), (s * 0.25 * a, 0, z)) for s in BOTH])
+        return t.model()
 
 
-SKIDS: tuple[Family, ...] = (
-    floor_family("skid frame/welded", _welded, 2.0),
-    floor_family("skid frame/fork pockets", _forked, 1.3),
-    floor_family("skid frame/cage", _cage, 1.3, "fitting"),
-    floor_family("skid frame/drip tray", _tray, 1.2),
-    floor_family("skid frame/pallet", _pallet, 0.8),
-    floor_family("skid frame/folded", _folded, 1.0),
-    floor_family("skid frame/sledge", _sledge, 1.0),
-    floor_family("skid frame/grouted", _inertia, 0.8),
-    floor_family("frame/table", _table, 1.5, "fitting"),
-)
+SKIDS = families_of(Welded, Forked, Cage, Tray, Pallet, Folded, Sledge, Grouted, MachineTable)

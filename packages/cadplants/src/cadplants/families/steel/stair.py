@@ -2,207 +2,231 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
-from cadplants.families.chance import pick
+from cadplants.builder.device import families_of
+from cadplants.builder.params import among, between, chance, nested, whole
+from cadplants.builder.table import Table
 from cadplants.families.steel.floor import panel
 from cadplants.families.steel.shape import (
+    BOTH,
+    CORNERS,
+    Base,
+    Structure,
     bar,
-    base,
-    chance,
+    each,
     few_sides,
     flat,
-    floor_family,
-    num,
-    piece,
+    one_of,
     pipe,
     ribbon,
     section,
     slab_xy,
     slab_xz,
+    span_of,
+    spread,
+    yes,
 )
-from cadplants.family import Family, Model, Part
-from cadplants.mesh_ops import merge, moved
-from cadplants.modeling_style import ModelingStyle
+from cadplants.family import Model
 from cadplants.primitives import box, cylinder, dome, ring
-from cadplants.transforms import at, spun
 
 __all__ = ["STAIRS"]
 
 
-def _spiral(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class Spiral(Structure, name="stairs/spiral", grain="fitting"):
     """A spiral stair: wedge treads round a column, balusters and a winding handrail (EN ISO 14122-3 going)."""
-    radius, rise, count = num(rng, 0.6, 1.1), num(rng, 0.18, 0.22), int(rng.integers(6, 15))
-    step, core = 2 * np.pi / pick(rng, 12, 14, 16), num(rng, 0.05, 0.09)
-    h = rise * count
-    n = few_sides(style, core, 24)
-    plates, low = base(0, 0, (5 * core, 5 * core), style, rng)
-    parts = [
-        *plates,
-        piece(moved(cylinder(core, low, h + 1.0, n), at()), "column"),
-        piece(dome(core, 0.5 * core, h + 1.0, n), "plate"),
-    ]
-    a = np.linspace(0, step * 1.1, 5)
-    wedge = np.vstack(
-        [0.9 * core * np.column_stack([np.cos(a), np.sin(a)])[::-1], radius * np.column_stack([np.cos(a), np.sin(a)])]
-    )
-    solid = slab_xy(wedge, -0.03, 0.0)
-    if chance(rng, 0.5):
-        solid = merge([solid, ring(0.98 * core, 1.3 * core, -0.2, 0.001, n)])
-    for k in range(count):
-        pose = at(0, 0, rise * (k + 1)) @ spun("z", step * k)
-        parts.append(piece(moved(solid, pose), "stair tread", pick(rng, "steel", "steel", "clamp")))
-        x, y = (radius - 0.03) * np.cos(step * (k + 0.5)), (radius - 0.03) * np.sin(step * (k + 0.5))
-        parts.append(
-            piece(pipe([(x, y, rise * (k + 1)), (x, y, rise * (k + 1.5) + 0.95)], 0.01, style), "post", "safety")
-        )
-    t = np.linspace(0.5, count - 0.5, 2 * count)
-    path = np.column_stack(
-        [(radius - 0.03) * np.cos(step * t), (radius - 0.03) * np.sin(step * t), rise * (t + 1.0) + 0.95]
-    )
-    parts.append(piece(pipe(path, 0.021, style), "railing", "safety"))
-    return Model(parts)
+
+    radius: float = between(0.6, 1.1, "of the stair", "m")
+    rise: float = between(0.18, 0.22, "of a step", "m")
+    count: int = whole(6, 14, "steps")
+    per_turn: int = among((12, 14, 16), "steps all the way round")
+    core: float = between(0.05, 0.09, "radius of the column", "m")
+    base: Base = nested(Base, "base plate")
+    collared: bool = chance(0.5, "the treads have collars round the column")
+    metals: tuple[str, ...] = each(one_of("steel", "steel", "clamp"), "kind of material of a tread")
+
+    def build(self, t: Table) -> Model:
+        r, rise, core, step = self.radius, self.rise, self.core, 2 * np.pi / self.per_turn
+        h, n, edge = rise * self.count, few_sides(t.style, core, 24), self.radius - 0.03
+        low = self.base.build(t, 5 * core, 5 * core)
+        t.add("column", cylinder(core, low, h + 1.0, n))
+        t.add("plate", dome(core, 0.5 * core, h + 1.0, n))
+        a = np.linspace(0, step * 1.1, 5)
+        unit = np.column_stack([np.cos(a), np.sin(a)])
+        tread = [slab_xy(np.vstack([0.9 * core * unit[::-1], r * unit]), -0.03, 0.0)]
+        tread += [ring(0.98 * core, 1.3 * core, -0.2, 0.001, n)] if self.collared else []
+        for k, metal in enumerate(self.metals):
+            here = t.at(0, 0, rise * (k + 1)).spun("z", step * k)
+            here.add("stair tread", *tread, of=metal)
+            x, y = edge * np.cos(step * (k + 0.5)), edge * np.sin(step * (k + 0.5))
+            ends = [(x, y, rise * (k + 1)), (x, y, rise * (k + 1.5) + 0.95)]
+            t.add("post", pipe(ends, 0.01, t.style), of="safety")
+        s = np.linspace(0.5, self.count - 0.5, 2 * self.count)
+        path = np.column_stack([edge * np.cos(step * s), edge * np.sin(step * s), rise * (s + 1.0) + 0.95])
+        t.add("railing", pipe(path, 0.021, t.style))
+        return t.model()
 
 
-def _concrete_flight(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class ConcreteFlight(Structure, name="stairs/concrete", weight=0.8, grain="fitting"):
     """A concrete flight in one piece, solid or as a sloped slab, maybe with cheek walls, nosings and a railing."""
-    count, rise, go, wide = int(rng.integers(2, 10)), num(rng, 0.15, 0.19), num(rng, 0.25, 0.32), num(rng, 0.7, 1.6)
-    outline = [(0.0, 0.0)]
-    for k in range(count):
-        outline += [(k * go, (k + 1) * rise), ((k + 1) * go, (k + 1) * rise)]
-    run, h = count * go, count * rise
-    under = [(run, 0.0)] if chance(rng, 0.5) or count < 4 else [(run, h - 0.2), (0.35, 0.0)]
-    solid = slab_xz(np.array([*outline, *under][::-1]), wide)
-    parts = [piece(solid, "stair tread", "concrete")]
-    if chance(rng, 0.35):
-        cheek = [(-0.1, 0), (run, 0), (run, h + 0.15), (-0.1, 0.15)]
-        parts += [piece(slab_xz(cheek, 0.15, s * (wide / 2 + 0.075)), "wall", "concrete") for s in (-1, 1)]
-    elif under[0][1] > 0:
-        parts.append(piece(box((0.3, wide, h - 0.2), (run - 0.15 + 0.3, 0, (h - 0.2) / 2)), "wall", "concrete"))
-    if chance(rng, 0.4):
-        parts += [
-            piece(box((0.05, wide, 0.004), (k * go + 0.025, 0, (k + 1) * rise + 0.002)), "plate", "clamp")
-            for k in range(count)
-        ]
-    if chance(rng, 0.6):
-        y = wide / 2 - 0.06
-        ends = [(0.5 * go, y, rise + 0.9), (run - 0.5 * go, y, h + 0.9)]
-        parts.append(piece(pipe(ends, 0.021, style), "railing", "safety"))
-        for k in sorted({0, count // 2, count - 1}):
-            x = (k + 0.5) * go
-            parts.append(
-                piece(pipe([(x, y, (k + 1) * rise), (x, y, (k + 1) * rise + 0.9)], 0.019, style), "post", "safety")
-            )
-    return Model(parts)
+
+    count: int = whole(2, 9, "steps")
+    rise: float = between(0.15, 0.19, "of a step", "m")
+    going: float = between(0.25, 0.32, "of a step", "m")
+    width: float = between(0.7, 1.6, "of the flight", "m")
+    solid: bool = chance(0.5, "solid, not a sloped slab, as short ones always are")
+    cheeked: bool = chance(0.35, "with cheek walls")
+    nosed: bool = chance(0.4, "with nosings")
+    railed: bool = chance(0.6, "with a railing")
+
+    def build(self, t: Table) -> Model:
+        n, rise, go, wide = self.count, self.rise, self.going, self.width
+        run, h = n * go, n * rise
+        solid = self.solid or n < 4
+        steps = [(0.0, 0.0), *((x, (k + 1) * rise) for k in range(n) for x in (k * go, (k + 1) * go))]
+        under = [(run, 0.0)] if solid else [(run, h - 0.2), (0.35, 0.0)]
+        t.add("stair tread", slab_xz(np.array([*steps, *under][::-1]), wide), of="concrete")
+        if self.cheeked:
+            cheek = [(-0.1, 0), (run, 0), (run, h + 0.15), (-0.1, 0.15)]
+            spread(t, "wall", [slab_xz(cheek, 0.15, s * (wide / 2 + 0.075)) for s in BOTH])
+        elif not solid:
+            t.add("wall", box((0.3, wide, h - 0.2), (run + 0.15, 0, (h - 0.2) / 2)))
+        if self.nosed:
+            nosings = [box((0.05, wide, 0.004), (k * go + 0.025, 0, (k + 1) * rise + 0.002)) for k in range(n)]
+            spread(t, "plate", nosings, of="clamp")
+        if self.railed:
+            y = wide / 2 - 0.06
+            t.add("railing", pipe([(0.5 * go, y, rise + 0.9), (run - 0.5 * go, y, h + 0.9)], 0.021, t.style))
+            feet = [((k + 0.5) * go, y, (k + 1) * rise) for k in sorted({0, n // 2, n - 1})]
+            posts = [pipe([(x, y, z), (x, y, z + 0.9)], 0.019, t.style) for x, y, z in feet]
+            spread(t, "post", posts, of="safety")
+        return t.model()
 
 
-def _flight(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+def _stringed(p: Any) -> bool:
+    return p.string in ("U", "flat", "RHS")
+
+
+class SteelFlight(Structure, name="stairs/strings and spine", weight=1.5, grain="fitting"):
     """A steel flight: channel, plate, tube or toothed strings or one spine; treads with end plates, nosings."""
-    count, rise, go, wide = int(rng.integers(3, 11)), num(rng, 0.16, 0.21), num(rng, 0.22, 0.28), num(rng, 0.6, 1.2)
-    run, h = count * go, count * rise
-    slope = np.arctan2(rise, go)
-    kind = pick(rng, "U", "flat", "RHS", "toothed", "spine")
-    parts: list[Part] = []
-    if kind == "toothed":
-        teeth = [(k * go + d, (k + e) * rise - 0.03) for k in range(count) for d, e in ((0.0, 1), (go, 1))]
-        low = [(run, h - 0.25), (0.0, -0.0)]
-        for s in (-1, 1):
-            parts.append(piece(slab_xz(np.array([*teeth, *low][::-1]), 0.012, s * (wide / 2 - 0.1)), "beam"))
-    elif kind == "spine":
-        one = section(pick(rng, "RHS", "SHS", "CHS", "H"), num(rng, 0.12, 0.2), style)
-        drop = float(one[0][:, 1].max()) / np.cos(slope)
-        parts.append(piece(bar((0.0, 0, rise - drop - 0.12), (run - go, 0, h - drop - 0.12), one), "beam"))
-    else:
-        one = section(kind, num(rng, 0.16, 0.22), style)
-        parts += [piece(bar((0, s * wide / 2, 0), (run, s * wide / 2, h), one), "beam") for s in (-1, 1)]
-    tread, deep = pick(rng, "bar", "fold", "sheet", "perforated", "planks"), go + 0.02
-    more = 0.024 if tread in ("fold", "planks", "sheet") else 0.0
-    for k in range(count):
-        x, z = (k + 0.5) * go, (k + 1) * rise - 0.03
-        solids = [moved(panel(tread, deep, wide - 0.02, 0.03, style), at(x, 0, z))]
-        if chance(rng, 0.5):
-            solids.append(box((0.03, wide - 0.02, 0.006), (x - deep / 2 + 0.015, 0, z + 0.033)))
-        if kind in ("U", "flat", "RHS"):
-            solids += [box((deep, 0.004, 0.06), (x, s * (wide / 2 - 0.012), z)) for s in (-1, 1)]
-        if kind == "spine":
-            parts.append(piece(box((0.15, 0.3, 0.125 + more), (x - go / 2, 0, z - 0.0625 + more / 2)), "bracket"))
-        parts.append(piece(merge(solids), "stair tread", "clamp"))
-    if chance(rng, 0.7):
-        for s in (-1, 1) if chance(rng, 0.6) else (1,):
-            y = s * (wide / 2 - (0.1 if kind == "toothed" else 0.0))
-            path = [(0.02, y, 0.95), (run, y, h + 0.95), (run + 0.2, y, h + 0.95)]
-            parts.append(piece(pipe(path, 0.021, style, 0.1), "railing", "safety"))
-            for f in np.linspace(0.08, 0.95, max(2, count // 3)):
-                z = f * h + (0.0 if kind in ("U", "flat", "RHS") else 0.1)
-                parts.append(piece(pipe([(f * run, y, z), (f * run, y, f * h + 0.95)], 0.019, style), "post", "safety"))
-    return Model(parts)
 
-
-def _crossover(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
-    """A step-over or a low step block: treads up one or both sides of a small platform, folded or framed."""
-    count, rise, go, wide = int(rng.integers(1, 5)), num(rng, 0.17, 0.23), num(rng, 0.22, 0.28), num(rng, 0.5, 0.9)
-    land, both, h = num(rng, 0.4, 1.2), chance(rng, 0.6), 0.0
-    h = rise * (count + 1)
-    kind = pick(rng, "bar", "sheet", "perforated", "fold")
-    parts = [piece(moved(panel(kind, land, wide, 0.03, style), at(0, 0, h - 0.03)), "platform", "clamp")]
-    one = section(pick(rng, "flat", "U", "RHS"), 0.12, style)
-    for way in (-1, 1) if both else (1,):
-        foot = way * (land / 2 + go * count)
-        for s in (-1, 1):
-            parts.append(piece(bar((foot, s * wide / 2, 0.05), (way * land / 2, s * wide / 2, h - 0.05), one), "beam"))
-        for k in range(count):
-            x = way * (land / 2 + go * (count - k - 0.5))
-            parts.append(
-                piece(
-                    moved(panel(kind, go, wide, 0.03, style), at(x, 0, rise * (k + 1) - 0.03)), "stair tread", "clamp"
-                )
-            )
-    for x in (-land / 2, land / 2):
-        for s in (-1, 1):
-            leg = section("SHS", 0.04, style)
-            parts.append(piece(bar((x, s * wide / 2, 0), (x, s * wide / 2, h - 0.03), leg), "column"))
-    if chance(rng, 0.6):
-        for s in (-1, 1):
-            y = s * wide / 2
-            path = [
-                (-land / 2, y, h - 0.03),
-                (-land / 2, y, h + 0.95),
-                (land / 2, y, h + 0.95),
-                (land / 2, y, h - 0.03),
-            ]
-            parts.append(piece(pipe(path, 0.019, style, 0.12), "railing", "safety"))
-    return Model(parts)
-
-
-def _zigzag(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
-    """Steps folded from one plate (zigzag), with or without side strings."""
-    count, rise, go, wide = int(rng.integers(2, 8)), num(rng, 0.16, 0.2), num(rng, 0.24, 0.3), num(rng, 0.6, 1.1)
-    line = [(0.0, 0.0)]
-    for k in range(count):
-        line += [(k * go, (k + 1) * rise), ((k + 1) * go, (k + 1) * rise)]
-    thick = pick(rng, 0.005, 0.008, 0.06)
-    parts = [
-        piece(slab_xz(ribbon(np.array(line), thick), wide), "stair tread", "steel" if thick < 0.02 else "concrete")
-    ]
-    run, h = count * go, count * rise
-    if chance(rng, 0.6):
-        for s in (-1, 1):
-            plate = flat((0, s * (wide / 2 + 0.005), 0.08), (run, s * (wide / 2 + 0.005), h + 0.08), 0.28, 0.01)
-            parts.append(piece(plate, "beam"))
-    parts.append(
-        piece(
-            box((0.2, wide, h - thick / 2), (run - 0.1, 0, (h - thick / 2) / 2)),
-            pick(rng, "wall", "foundation"),
-            "concrete",
-        )
+    count: int = whole(3, 10, "steps")
+    rise: float = between(0.16, 0.21, "of a step", "m")
+    going: float = between(0.22, 0.28, "of a step", "m")
+    width: float = between(0.6, 1.2, "of the flight", "m")
+    string: str = among(("U", "flat", "RHS", "toothed", "spine"), "section of the strings, or toothed ones, or a spine")
+    spine: str = among(("RHS", "SHS", "CHS", "H"), "section of the spine", when=lambda p: p.string == "spine")
+    size: float = between(
+        lambda p: 0.12 if p.string == "spine" else 0.16,
+        lambda p: 0.2 if p.string == "spine" else 0.22,
+        "height of a string or the spine",
+        "m",
+        when=lambda p: p.string != "toothed",
     )
-    return Model(parts)
+    tread: str = among(("bar", "fold", "sheet", "perforated", "planks"), "how the treads are made")
+    nosed: tuple[bool, ...] = each(yes(0.5), "whether a tread has a nosing")
+    railed: bool = chance(0.7, "with a railing")
+    both: bool = chance(0.6, "a railing on both sides, not on one", when=lambda p: p.railed)
+
+    def build(self, t: Table) -> Model:
+        n, rise, go, wide, string = self.count, self.rise, self.going, self.width, self.string
+        self._strings(t, n * go, n * rise)
+        tread, deep = self.tread, go + 0.02
+        more = 0.024 if tread in ("fold", "planks", "sheet") else 0.0
+        solid = panel(tread, deep, wide - 0.02, 0.03, t.style)
+        ends = [box((deep, 0.004, 0.06), (0, s * (wide / 2 - 0.012), 0)) for s in BOTH if _stringed(self)]
+        nosing = box((0.03, wide - 0.02, 0.006), (-deep / 2 + 0.015, 0, 0.033))
+        for k, nosed in enumerate(self.nosed):
+            here = t.at((k + 0.5) * go, 0, (k + 1) * rise - 0.03)
+            if string == "spine":
+                here.add("bracket", box((0.15, 0.3, 0.125 + more), (-go / 2, 0, -0.0625 + more / 2)))
+            here.add("stair tread", solid, *([nosing] if nosed else []), *ends, of="clamp")
+        if self.railed:
+            self._rails(t, n * go, n * rise)
+        return t.model()
+
+    def _strings(self, t: Table, run: float, h: float) -> None:
+        """What carries the treads, over a run and a height [m]."""
+        n, rise, go, y = self.count, self.rise, self.going, self.width / 2
+        if self.string == "toothed":
+            teeth = [(k * go + d, (k + 1) * rise - 0.03) for k in range(n) for d in (0.0, go)]
+            shape = np.array([*teeth, (run, h - 0.25), (0.0, 0.0)][::-1])
+            spread(t, "beam", [slab_xz(shape, 0.012, s * (y - 0.1)) for s in BOTH])
+        elif self.string == "spine":
+            one = section(self.spine, self.size, t.style)
+            drop = span_of(one)[3] / np.cos(np.arctan2(rise, go)) + 0.12
+            t.add("beam", bar((0.0, 0, rise - drop), (run - go, 0, h - drop), one))
+        else:
+            one = section(self.string, self.size, t.style)
+            spread(t, "beam", [bar((0, s * y, 0), (run, s * y, h), one) for s in BOTH])
+
+    def _rails(self, t: Table, run: float, h: float) -> None:
+        """Railings, over a run and a height [m]."""
+        for s in BOTH if self.both else (1,):
+            y = s * (self.width / 2 - (0.1 if self.string == "toothed" else 0.0))
+            path = [(0.02, y, 0.95), (run, y, h + 0.95), (run + 0.2, y, h + 0.95)]
+            t.add("railing", pipe(path, 0.021, t.style, 0.1))
+            for f in np.linspace(0.08, 0.95, max(2, self.count // 3)):
+                low = f * h + (0.0 if _stringed(self) else 0.1)
+                t.add("post", pipe([(f * run, y, low), (f * run, y, f * h + 0.95)], 0.019, t.style), of="safety")
 
 
-STAIRS: tuple[Family, ...] = (
-    floor_family("stairs/spiral", _spiral, 1.0, "fitting"),
-    floor_family("stairs/concrete", _concrete_flight, 0.8, "fitting"),
-    floor_family("stairs/strings and spine", _flight, 1.5, "fitting"),
-    floor_family("stairs/step over", _crossover, 1.0, "fitting"),
-    floor_family("stairs/zigzag", _zigzag, 0.7, "fitting"),
-)
+class StepOver(Structure, name="stairs/step over", grain="fitting"):
+    """A step-over or a low step block: treads up one or both sides of a small platform, folded or framed."""
+
+    count: int = whole(1, 4, "steps up a side")
+    rise: float = between(0.17, 0.23, "of a step", "m")
+    going: float = between(0.22, 0.28, "of a step", "m")
+    width: float = between(0.5, 0.9, "of the steps", "m")
+    land: float = between(0.4, 1.2, "length of the platform", "m")
+    both: bool = chance(0.6, "steps on both sides, not on one")
+    tread: str = among(("bar", "sheet", "perforated", "fold"), "how treads and platform are made")
+    string: str = among(("flat", "U", "RHS"), "section of the strings")
+    railed: bool = chance(0.6, "a railing on either side")
+
+    def build(self, t: Table) -> Model:
+        n, rise, go, wide, x = self.count, self.rise, self.going, self.width, self.land / 2
+        h, y = rise * (n + 1), wide / 2
+        t.at(0, 0, h - 0.03).add("platform", panel(self.tread, 2 * x, wide, 0.03, t.style))
+        one, leg = section(self.string, 0.12, t.style), section("SHS", 0.04, t.style)
+        tread = panel(self.tread, go, wide, 0.03, t.style)
+        for way in BOTH if self.both else (1,):
+            foot = way * (x + go * n)
+            spread(t, "beam", [bar((foot, s * y, 0.05), (way * x, s * y, h - 0.05), one) for s in BOTH])
+            for k in range(n):
+                here = t.at(way * (x + go * (n - k - 0.5)), 0, rise * (k + 1) - 0.03)
+                here.add("stair tread", tread, of="clamp")
+        spread(t, "column", [bar((sx * x, sy * y, 0), (sx * x, sy * y, h - 0.03), leg) for sx, sy in CORNERS])
+        for s in BOTH if self.railed else ():
+            path = [(x_, s * y, z) for x_, z in ((-x, h - 0.03), (-x, h + 0.95), (x, h + 0.95), (x, h - 0.03))]
+            t.add("railing", pipe(path, 0.019, t.style, 0.12))
+        return t.model()
+
+
+class Zigzag(Structure, name="stairs/zigzag", weight=0.7, grain="fitting"):
+    """Steps folded from one plate (zigzag), with or without side strings."""
+
+    count: int = whole(2, 7, "steps")
+    rise: float = between(0.16, 0.2, "of a step", "m")
+    going: float = between(0.24, 0.3, "of a step", "m")
+    width: float = between(0.6, 1.1, "of the steps", "m")
+    thick: float = among((0.005, 0.008, 0.06), "thickness of the plate, or of concrete", "m")
+    stringed: bool = chance(0.6, "with side strings")
+    back: str = among(("wall", "foundation"), "what is behind it")
+
+    def build(self, t: Table) -> Model:
+        n, rise, go, wide, thick = self.count, self.rise, self.going, self.width, self.thick
+        run, h, y = n * go, n * rise, wide / 2 + 0.005
+        line = [(0.0, 0.0), *((x, (k + 1) * rise) for k in range(n) for x in (k * go, (k + 1) * go))]
+        of = "steel" if thick < 0.02 else "concrete"
+        t.add("stair tread", slab_xz(ribbon(np.array(line), thick), wide), of=of)
+        for s in BOTH if self.stringed else ():
+            t.add("beam", flat((0, s * y, 0.08), (run, s * y, h + 0.08), 0.28, 0.01))
+        tall = h - thick / 2
+        t.add(self.back, box((0.2, wide, tall), (run - 0.1, 0, tall / 2)))
+        return t.model()
+
+
+STAIRS = families_of(Spiral, ConcreteFlight, SteelFlight, StepOver, Zigzag)
