@@ -2,245 +2,340 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-from functools import partial
+from typing import ClassVar
 
 import numpy as np
 
 from cadgraph.model.scene import Floats
-from cadplants.families.chance import chance, num, pick
-from cadplants.families.primitive.shape import (
-    cone,
-    disc,
-    dish,
-    family,
-    lying,
-    part,
-    pipe_piece,
-    sized,
-    sleeve,
-    torus_piece,
-)
+from cadplants.builder.device import Device, families_of
+from cadplants.builder.params import Params, among, between, chance, nested, several, whole
+from cadplants.builder.table import Table, outline
+from cadplants.families.primitive.shape import cone, disc, dish, lying, pipe_piece, sized, sleeve, torus_piece
 from cadplants.family import Family, Model
 from cadplants.mesh_ops import Solid, loft, merge, moved, revolve, weld
-from cadplants.modeling_style import ModelingStyle
 from cadplants.primitives import ball, cylinder, torus
-from cadplants.standards import ELBOW_LONG_RADIUS, FLANGES, PIPES, REDUCER_LENGTH, TEE_CENTER_TO_END, smaller
+from cadplants.standards import ELBOW_LONG_RADIUS, PIPES, REDUCER_LENGTH, TEE_CENTER_TO_END, smaller
 from cadplants.transforms import arc, at, spun
 
 __all__ = ["PRIMITIVE_FITTINGS"]
 
-_PIPE = "Pipe assembly"
+_SMALL, _ABOVE_SMALLEST = sized(15, 65), sized(20, 400)
 _TAP_RADIUS = 0.03  # m: of a small pipe; outlets sink into it as far as their foot needs
+_SIDES = "sides; 0: round"
+_TURNS = (0.0, np.pi)  # of the arms about the run
 
 
-def _one(name: str, length: float, *solids: Solid, joint: str = "welded", color: str = "pipe") -> Model:
-    return Model([part(name, *solids, color=color, bundle=name)], length, joint)
+class _Fitting(Device, place="inline", group="Pipe assembly"):
+    """A fitting of primitives."""
 
 
-def _reducer(dn: int, style: ModelingStyle, rng: np.random.Generator, eccentric: bool = False) -> Model:
-    """A bare cone from one size to another, straight or with one flat side."""
-    other = smaller(dn, int(rng.integers(1, 4)))
-    first, last = PIPES[dn], PIPES[other]
-    length = REDUCER_LENGTH[dn] * pick(rng, 0.6, 1.0, 1.0, 1.4)
-    n, rise = style.round(first.radius), (first.radius - last.radius) * (1 if eccentric else 0)
+class BareCone(_Fitting, name="reducer/bare cone", label="reducer", bundle="reducer", sizes=_ABOVE_SMALLEST, weight=2):
+    """A bare cone from one size to another."""
 
-    def ring_at(x: float, radius: float, lift: float) -> Floats:
-        angles = np.arange(n) * 2 * np.pi / n
-        return np.column_stack([np.full(n, x), radius * np.cos(angles), lift + radius * np.sin(angles)])
+    lifted: ClassVar[float] = 0.0
 
-    ends = [ring_at(0.0, first.radius, 0.0), ring_at(length, last.radius, rise)]
-    if style.hollow:
-        inside = [ring_at(length, last.bore, rise), ring_at(0.0, first.bore, 0.0)]
-        solid = weld([loft([*ends, *inside], closed=True)])
-    else:
-        middles = [ring.mean(axis=0, keepdims=True) for ring in ends]
-        solid = weld([loft([middles[0], *ends, middles[1]])])
-    return replace(_one("reducer", length, solid), dn=0 if eccentric else other)
+    steps: int = whole(1, 3, "how many nominal sizes smaller the other end is")
+    stretch: float = among((0.6, 1.0, 1.0, 1.4), "length / that of the standard")
 
+    def build(self, t: Table) -> Model:
+        other = smaller(self.dn, self.steps)
+        first, last = t.pipe, PIPES[other]
+        length, n, rise = REDUCER_LENGTH[self.dn] * self.stretch, t.n(first.radius), first.radius - last.radius
+        rise *= self.lifted
 
-def _tee(dn: int, style: ModelingStyle, rng: np.random.Generator, arms: int = 1) -> Model:
-    """Crossed cylinders, each with closed ends, or a snout on a run: a tee or a cross in one mesh."""
-    branch = smaller(dn, int(rng.integers(0, 3)))
-    reach = TEE_CENTER_TO_END[dn]
-    solids = [lying(pipe_piece(dn, 0.0, 2 * reach, style))]
-    start = 0.0 if chance(rng, 0.5) else 0.8 * PIPES[dn].radius
-    for turn in (0.0, np.pi)[:arms]:
-        arm = pipe_piece(branch, start, reach, style)
-        if chance(rng, 0.3):
-            arm = cone(PIPES[branch].radius * 1.25, PIPES[branch].radius, start, reach, style)
-        solids.append(moved(arm, at(reach) @ spun("x", turn)))
-    return _one("tee" if arms == 1 else "cross", 2 * reach, *solids)
+        def circle_at(x: float, radius: float, lift: float) -> Floats:
+            angles = np.arange(n) * 2 * np.pi / n
+            return np.column_stack([np.full(n, x), radius * np.cos(angles), lift + radius * np.sin(angles)])
+
+        ends = [circle_at(0.0, first.radius, 0.0), circle_at(length, last.radius, rise)]
+        if t.style.hollow:
+            inside = [circle_at(length, last.bore, rise), circle_at(0.0, first.bore, 0.0)]
+            solid = weld([loft([*ends, *inside], closed=True)])
+        else:
+            middles = [ring.mean(axis=0, keepdims=True) for ring in ends]
+            solid = weld([loft([middles[0], *ends, middles[1]])])
+        t.add("reducer", solid, of="pipe")
+        return t.model(length, "welded", dn=0 if self.lifted else other)
 
 
-def _screwed(dn: int, style: ModelingStyle, rng: np.random.Generator, arms: int = 1) -> Model:
-    """A ball with thick screwed ends on three or four sides; some ends are six- or eight-sided."""
-    r = PIPES[dn].radius
-    reach, end = round(r * num(rng, 2.0, 2.8) + 0.008, 6), r * num(rng, 1.25, 1.5)
-    sides, band = pick(rng, 6, 8, style.round(end)), r * num(rng, 0.8, 1.2)
-    solids = [lying(disc(1.1 * r, 0.0, 2 * reach, style)), moved(ball(1.35 * r, style.round(1.35 * r)), at(reach))]
-    solids += [lying(cylinder(end, 0.0, band, sides)), lying(cylinder(end, 2 * reach - band, 2 * reach, sides))]
-    for turn in (0.0, np.pi)[:arms]:
-        upright = merge([disc(1.1 * r, 0.0, reach, style), cylinder(end, reach - band, reach, sides)])
-        solids.append(moved(upright, at(reach) @ spun("x", turn)))
-    return _one("tee" if arms == 1 else "cross", 2 * reach, *solids)
+class SlantedCone(BareCone, name="reducer/slanted cone", weight=1.0):
+    """A bare cone from one size to another with one flat side."""
+
+    lifted = 1.0
 
 
-def _coupling(dn: int, style: ModelingStyle, rng: np.random.Generator, name: str = "coupling") -> Model:
-    """A short thicker cylinder, round or six-sided; of a union, three in a row."""
-    r = PIPES[dn].radius
-    length, wide = round(r * num(rng, 1.2, 3.0) + 0.01, 6), r * num(rng, 1.15, 1.5)
-    sides = pick(rng, 6, 8, style.round(wide), style.round(wide))
-    if name == "coupling":
-        return _one(name, length, lying(cylinder(wide, 0.0, length, sides)))
-    nut = cylinder(1.25 * wide, 0.3 * length, 0.7 * length, pick(rng, 6, 8, style.round(wide)))
-    return _one(name, length, lying(cylinder(wide, 0.0, length, sides)), lying(nut))
+class CrossedTee(_Fitting, name="tee/crossed cylinders", label="tee", bundle="tee", weight=3):
+    """Crossed cylinders, each with closed ends, or a snout on a run: a tee in one mesh."""
+
+    steps: int = whole(0, 2, "how many nominal sizes smaller the branch is")
+    crossed: bool = chance(0.5, "the branch begins at the axis of the run")
+    flared: tuple[bool, ...] = several(
+        lambda rng, _: bool(rng.random() < 0.3), lambda _: 1, "whether the branch is a cone"
+    )
+
+    def build(self, t: Table) -> Model:
+        branch, reach = smaller(self.dn, self.steps), TEE_CENTER_TO_END[self.dn]
+        start, r = 0.0 if self.crossed else 0.8 * t.pipe.radius, PIPES[branch].radius
+        solids = [lying(pipe_piece(self.dn, 0.0, 2 * reach, t.style))]
+        for turn, flared in zip(_TURNS, self.flared, strict=False):
+            flare = cone(r * 1.25, r, start, reach, t.style)
+            arm = flare if flared else pipe_piece(branch, start, reach, t.style)
+            solids.append(moved(arm, at(reach) @ spun("x", turn)))
+        t.add(self.label, *solids, of="pipe")
+        return t.model(2 * reach, "welded")
 
 
-def _cap(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class CrossedCross(CrossedTee, name="cross/crossed cylinders", label="cross", bundle="cross", weight=1.0):
+    """Crossed cylinders, each with closed ends, or two snouts on a run: a cross in one mesh."""
+
+    flared: tuple[bool, ...] = several(
+        lambda rng, _: bool(rng.random() < 0.3), lambda _: 2, "whether each branch is a cone"
+    )
+
+
+class BallTee(_Fitting, name="tee/ball with ends", label="tee", bundle="tee", sizes=_SMALL):
+    """A ball with thick screwed ends on three sides; some ends are six- or eight-sided."""
+
+    arms: ClassVar[int] = 1
+
+    reach: float = between(2.0, 2.8, "(from the middle to an end - 8 mm) / radius of the pipe")
+    end: float = between(1.25, 1.5, "radius of its ends / of the pipe")
+    sides: int = among((6, 8, 0), _SIDES)
+    band: float = between(0.8, 1.2, "length of its ends / radius of the pipe")
+
+    def build(self, t: Table) -> Model:
+        r, style = t.pipe.radius, t.style
+        reach, end, band = round(r * self.reach + 0.008, 6), r * self.end, r * self.band
+        sides = self.sides or t.n(end)
+        solids = [lying(disc(1.1 * r, 0.0, 2 * reach, style)), moved(ball(1.35 * r, t.n(1.35 * r)), at(reach))]
+        solids += [lying(cylinder(end, low, low + band, sides)) for low in (0.0, 2 * reach - band)]
+        for turn in _TURNS[: self.arms]:
+            upright = merge([disc(1.1 * r, 0.0, reach, style), cylinder(end, reach - band, reach, sides)])
+            solids.append(moved(upright, at(reach) @ spun("x", turn)))
+        t.add(self.label, *solids, of="pipe")
+        return t.model(2 * reach, "welded")
+
+
+class BallCross(BallTee, name="cross/ball with ends", label="cross", bundle="cross"):
+    """A ball with thick screwed ends on four sides; some ends are six- or eight-sided."""
+
+    arms = 2
+
+
+class ShortCylinder(_Fitting, name="coupling/short cylinder", label="coupling", bundle="coupling"):
+    """A short thicker cylinder, round or six-sided."""
+
+    length: float = between(1.2, 3.0, "(length - 10 mm) / radius of the pipe")
+    wide: float = between(1.15, 1.5, "radius / of the pipe")
+    sides: int = among((6, 8, 0, 0), _SIDES)
+
+    def build(self, t: Table) -> Model:
+        length, wide = round(t.pipe.radius * self.length + 0.01, 6), t.pipe.radius * self.wide
+        t.add(self.label, *(lying(one) for one in self.cylinders(t, length, wide)), of="pipe")
+        return t.model(length, "welded")
+
+    def cylinders(self, t: Table, length: float, wide: float) -> list[Solid]:
+        """What it is made of, about z [m]."""
+        return [cylinder(wide, 0.0, length, self.sides or t.n(wide))]
+
+
+class ThreeCylinders(ShortCylinder, name="union/three cylinders", label="union", bundle="union", sizes=_SMALL):
+    """A union: a short thicker cylinder with a nut round its middle."""
+
+    nut: int = among((6, 8, 0), "sides of the nut; 0: round")
+
+    def cylinders(self, t: Table, length: float, wide: float) -> list[Solid]:
+        nut = cylinder(1.25 * wide, 0.3 * length, 0.7 * length, self.nut or t.n(wide))
+        return [*super().cylinders(t, length, wide), nut]
+
+
+class Cap(_Fitting, name="pipe cap/cylinder", place="end", label="pipe cap", bundle="pipe cap", weight=2):
     """A cylinder with a flat or dished end, or a dish alone."""
-    r = PIPES[dn].radius
-    wide, skirt = r * pick(rng, 1.0, 1.0, 1.15), r * num(rng, 0.2, 1.0)
-    if chance(rng, 0.4):
-        return _one("pipe cap", 0.0, lying(dish(r, 0.55 * r, 0.0, style)))
-    solids = [lying(disc(wide, 0.0, skirt, style))]
-    if chance(rng, 0.5):
-        solids.append(lying(dish(wide, 0.5 * wide, skirt, style)))
-    return _one("pipe cap", 0.0, *solids)
+
+    wide: float = among((1.0, 1.0, 1.15), "radius / of the pipe")
+    skirt: float = between(0.2, 1.0, "length of the cylinder / radius of the pipe")
+    alone: bool = chance(0.4, "a dish alone")
+    dished: bool = chance(0.5, "the cylinder's end is dished", when=lambda p: not p.alone)
+
+    def build(self, t: Table) -> Model:
+        r = t.pipe.radius
+        wide, skirt = r * self.wide, r * self.skirt
+        solids = [] if self.alone else [disc(wide, 0.0, skirt, t.style)]
+        if self.alone:
+            solids.append(dish(r, 0.55 * r, 0.0, t.style))
+        elif self.dished:
+            solids.append(dish(wide, 0.5 * wide, skirt, t.style))
+        t.add("pipe cap", *map(lying, solids))
+        return t.model(joint="welded")
 
 
-def _elbow(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
-    """A piece of a torus at the end of a line, 45 or 90 degrees or a return."""
-    size, radius = PIPES[dn], ELBOW_LONG_RADIUS[dn] * pick(rng, 0.67, 1.0, 1.0)
-    radius = max(radius, 1.05 * size.radius)
-    turn = pick(rng, 0.25, 0.5, 0.5) * np.pi
-    reach = radius * float(np.tan(turn / 2))
-    last = (reach + reach * float(np.cos(turn)), reach * float(np.sin(turn)), 0.0)
-    steps = max(2, round(style.round(size.radius) * turn / (2 * np.pi)))
-    path = arc((0.0, 0.0, 0.0), (reach, 0.0, 0.0), last, steps)
-    bore = size.bore if style.hollow and size.bore < radius else 0.0
-    solid = torus_piece(path, size.radius, style.round(size.radius), bore)
-    return _one("elbow", 0.0, moved(solid, spun("x", num(rng, 0, 2 * np.pi))))
+class TorusPiece(_Fitting, name="elbow/piece of torus", place="end", label="elbow", bundle="elbow", weight=2):
+    """A piece of a torus at the end of a line, 45 or 90 degrees."""
+
+    bend: float = among((0.67, 1.0, 1.0), "radius of the bend / of a long one")
+    turn: float = among((0.25, 0.5, 0.5), "angle / half a turn")
+    roll: float = between(0, 2 * np.pi, "about the line", "rad")
+
+    def build(self, t: Table) -> Model:
+        size, turn = t.pipe, self.turn * np.pi
+        radius = max(ELBOW_LONG_RADIUS[self.dn] * self.bend, 1.05 * size.radius)
+        reach = radius * float(np.tan(turn / 2))
+        last = (reach + reach * float(np.cos(turn)), reach * float(np.sin(turn)), 0.0)
+        n = t.n(size.radius)
+        path = arc((0.0, 0.0, 0.0), (reach, 0.0, 0.0), last, max(2, round(n * turn / (2 * np.pi))))
+        bore = size.bore if t.style.hollow and size.bore < radius else 0.0
+        t.spun("x", self.roll).add("elbow", torus_piece(path, size.radius, n, bore))
+        return t.model(joint="welded")
 
 
-def _blind(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class PlainDisc(_Fitting, name="blind flange/plain disc", place="head", label="blind flange", bundle="blind flange"):
     """A plain disc as wide as a flange on a flange; at times with a low boss."""
-    size = FLANGES[dn]
-    thick = size.thickness * num(rng, 0.7, 1.4)
-    solids = [lying(disc(size.outer / 2, 0.0, thick, style))]
-    if chance(rng, 0.25):
-        solids.append(lying(disc(size.raised / 2 * 0.7, thick, 1.4 * thick, style)))
-    return _one("blind flange", 0.0, *solids, color="flange")
+
+    thick: float = between(0.7, 1.4, "thickness / of a flange")
+    boss: bool = chance(0.25, "a low boss on it")
+
+    def build(self, t: Table) -> Model:
+        size, thick = t.flange, t.flange.thickness * self.thick
+        bosses = [lying(disc(size.raised / 2 * 0.7, thick, 1.4 * thick, t.style))] if self.boss else []
+        t.add("blind flange", lying(disc(size.outer / 2, 0.0, thick, t.style)), *bosses)
+        return t.model(joint="welded")
 
 
-def _strainer(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class SlantedCylinder(_Fitting, name="strainer/slanted cylinder", label="strainer", bundle="strainer", weight=0.7):
     """A run with a slanted or upright cylinder out of its side."""
-    r, length = PIPES[dn].radius, round(FLANGES[dn].outer * num(rng, 1.1, 1.7), 6)
-    wide = r * num(rng, 1.0, 1.4)
-    turn = pick(rng, 0.75, 0.75, 1.0) * np.pi
-    leg = merge([disc(wide, 0.0, 3.2 * r + 0.03, style), disc(1.35 * wide, 3.2 * r, 3.5 * r + 0.04, style)])
-    body = disc(wide, 0.0, length, style) if chance(rng, 0.6) else cone(wide, 1.3 * wide, 0, length, style)
-    solids = [lying(body), moved(leg, at(length / 2) @ spun("y", turn))]
-    return _one("strainer", length, *solids, joint="flanged", color="valve")
+
+    length: float = between(1.1, 1.7, "face to face / outside of the flange")
+    wide: float = between(1.0, 1.4, "radius / of the pipe")
+    turn: float = among((0.75, 0.75, 1.0), "of the cylinder from upright / half a turn")
+    straight: bool = chance(0.6, "the run is no cone")
+
+    def build(self, t: Table) -> Model:
+        r, length, style = t.pipe.radius, round(t.flange.outer * self.length, 6), t.style
+        wide = r * self.wide
+        leg = merge([disc(wide, 0.0, 3.2 * r + 0.03, style), disc(1.35 * wide, 3.2 * r, 3.5 * r + 0.04, style)])
+        body = disc(wide, 0.0, length, style) if self.straight else cone(wide, 1.3 * wide, 0.0, length, style)
+        t.add("strainer", lying(body), moved(leg, at(length / 2) @ spun("y", self.turn * np.pi)), of="valve")
+        return t.model(length)
 
 
-def _bellows(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class Discs(_Fitting, name="expansion joint/discs", label="expansion joint", bundle="expansion joint", weight=0.6):
     """A thicker cylinder, a row of discs, or a row of rings between two ends."""
-    r, length = PIPES[dn].radius, round(FLANGES[dn].outer * num(rng, 0.7, 1.4), 6)
-    core = lying(sleeve(PIPES[dn].bore, r, 0.0, length, style))
-    kind, wide = int(rng.integers(3)), r * num(rng, 1.2, 1.6)
-    if kind == 0:
-        return _one(
-            "expansion joint", length, core, lying(disc(wide, 0.2 * length, 0.8 * length, style)), joint="flanged"
-        )
-    places = np.linspace(0.25, 0.75, int(rng.integers(3, 8))) * length
-    thick = 0.25 * (places[1] - places[0])
-    sides = min(style.round(wide), 24)
-    rings = [
-        disc(wide, float(z) - thick, float(z) + thick, style)
-        if kind == 1
-        else moved(torus(r + thick, thick, sides, 6), at(0, 0, float(z)))
-        for z in places
-    ]
-    return _one("expansion joint", length, core, *(lying(one) for one in rings), joint="flanged")
+
+    length: float = between(0.7, 1.4, "face to face / outside of the flange")
+    form: str = among(("cylinder", "discs", "rings"), "what is between its ends")
+    wide: float = between(1.2, 1.6, "radius of that / of the pipe")
+    count: int = whole(3, 7, "discs or rings", when=lambda p: p.form != "cylinder")
+
+    def build(self, t: Table) -> Model:
+        r, length, style = t.pipe.radius, round(t.flange.outer * self.length, 6), t.style
+        wide, solids = r * self.wide, [sleeve(t.pipe.bore, r, 0.0, length, style)]
+        if self.form == "cylinder":
+            solids.append(disc(wide, 0.2 * length, 0.8 * length, style))
+        else:
+            places = np.linspace(0.25, 0.75, self.count) * length
+            thick = 0.25 * (places[1] - places[0])
+            for z in map(float, places):
+                bead = moved(torus(r + thick, thick, min(t.n(wide), 24), 6), at(0, 0, z))
+                solids.append(disc(wide, z - thick, z + thick, style) if self.form == "discs" else bead)
+        t.add("expansion joint", *map(lying, solids), of="pipe")
+        return t.model(length)
 
 
-def _snout(style: ModelingStyle, rng: np.random.Generator) -> tuple[Solid, float]:
-    """A branch outlet on z = 0, sunk a little, and its height [m]: a cone, a cylinder or one with a flared foot."""
-    foot = min(num(rng, 0.010, 0.03), 0.85 * _TAP_RADIUS)
-    high, sunk, kind = num(rng, 0.015, 0.06), 0.6 * foot**2 / _TAP_RADIUS + 0.0005, int(rng.integers(3))
-    top = foot * num(rng, 0.5, 0.9)
-    if kind == 0:
-        return cone(foot, top, -sunk, high, style), high
-    if kind == 1:
-        return disc(top, -sunk, high, style), high
-    outline = [(0.0, -sunk), (foot, -sunk), (foot, 0.1 * high), (top, 0.45 * high), (top, high), (0.0, high)]
-    return weld([revolve(outline, style.round(foot))]), high
+class _Snout(Params):
+    """A branch outlet on z = 0, sunk a little: a cone, a cylinder or one with a flared foot."""
+
+    foot: float = between(0.010, 0.03, "radius of its foot", "m")
+    high: float = between(0.015, 0.06, "height", "m")
+    form: str = among(("cone", "cylinder", "flared"), "how it is made")
+    top: float = between(0.5, 0.9, "radius of its top / of its foot")
+
+    def solid(self, t: Table) -> Solid:
+        """The outlet."""
+        foot, high = min(self.foot, 0.85 * _TAP_RADIUS), self.high
+        sunk, top = 0.6 * foot**2 / _TAP_RADIUS + 0.0005, foot * self.top
+        if self.form == "cone":
+            return cone(foot, top, -sunk, high, t.style)
+        if self.form == "cylinder":
+            return disc(top, -sunk, high, t.style)
+        corners = outline(0, -sunk, foot, -sunk, foot, 0.1 * high, top, 0.45 * high, top, high, 0, high)
+        return weld([revolve(corners, t.n(foot))])
 
 
-def _outlet(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class Outlet(
+    _Fitting, name="branch outlet/snout", place="tap", label="branch outlet", bundle="branch outlet", weight=3
+):
     """A snout on an outlet, with a plug, a piece of pipe or a blank disc on it."""
-    solid, high = _snout(style, rng)
-    top = float(np.hypot(*solid.vertices[solid.vertices[:, 2] > high - 1e-9][:, :2].T).max())
-    parts = [part("branch outlet", solid, color="pipe", bundle="branch outlet")]
-    kind = int(rng.integers(4))
-    if kind == 0:
-        parts.append(part("pipe", disc(0.9 * top, high, high + num(rng, 0.05, 0.4), style), color="pipe"))
-    elif kind == 1:
-        parts.append(part("pipe cap", disc(1.2 * top, high, high + 1.2 * top, style), color="pipe"))
-    elif kind == 2:
-        parts.append(part("blind flange", disc(2.6 * top, high, high + 0.8 * top, style), color="flange"))
-    return Model(parts)
+
+    snout: _Snout = nested(_Snout, "outlet")
+    end: str = among(("pipe", "cap", "disc", "open"), "what is on it")
+    long: float = between(0.05, 0.4, "length of the pipe", "m", when=lambda p: p.end == "pipe")
+
+    def build(self, t: Table) -> Model:
+        solid, high, style = self.snout.solid(t), self.snout.high, t.style
+        top = float(np.hypot(*solid.vertices[solid.vertices[:, 2] > high - 1e-9][:, :2].T).max())
+        t.add("branch outlet", solid)
+        if self.end == "pipe":
+            t.add("pipe", disc(0.9 * top, high, high + self.long, style), own=False)
+        elif self.end == "cap":
+            t.add("pipe cap", disc(1.2 * top, high, high + 1.2 * top, style), own=False)
+        elif self.end == "disc":
+            t.add("blind flange", disc(2.6 * top, high, high + 0.8 * top, style), own=False)
+        return t.model()
 
 
-def _flange_pair(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
-    """Two discs with cones or cylinders for their hubs, back to back on a short neck, or one disc alone."""
-    r, rim = PIPES[dn].radius, FLANGES[dn].outer / 2
-    thick = FLANGES[dn].thickness
-    length = round(3 * thick + num(rng, 0.02, 0.08), 6)
-    hub = r * num(rng, 1.1, 1.4)
-    if chance(rng, 0.5):
-        hubs = [cone(hub, r, thick, 0.5 * length, style), cone(r, hub, 0.5 * length, length - thick, style)]
-    else:
-        hubs = [disc(hub, thick, 0.45 * length, style), disc(hub, 0.55 * length, length - thick, style)]
-    first = merge([disc(rim, 0.0, thick, style), hubs[0]])
-    last = merge([disc(rim, length - thick, length, style), hubs[1]])
-    parts = [part("flange", lying(one), color="flange", bundle="flange") for one in (first, last)]
-    parts.append(part("pipe", lying(pipe_piece(dn, 0.4 * length, 0.6 * length, style)), color="pipe", bundle="flange"))
-    return Model(parts, length, split=True)
+class DiscAndCone(_Fitting, name="flange/disc and cone", label="flange", bundle="flange", weight=1.5):
+    """Two discs with cones or cylinders for their hubs, back to back on a short neck."""
+
+    more: float = between(0.02, 0.08, "length - 3 thicknesses of a flange", "m")
+    hub: float = between(1.1, 1.4, "radius of the hubs / of the pipe")
+    coned: bool = chance(0.5, "the hubs are cones")
+
+    def build(self, t: Table) -> Model:
+        r, rim, thick, style = t.pipe.radius, t.flange.outer / 2, t.flange.thickness, t.style
+        length, hub = round(3 * thick + self.more, 6), r * self.hub
+        if self.coned:
+            hubs = [cone(hub, r, thick, 0.5 * length, style), cone(r, hub, 0.5 * length, length - thick, style)]
+        else:
+            hubs = [disc(hub, thick, 0.45 * length, style), disc(hub, 0.55 * length, length - thick, style)]
+        for low, one in zip((0.0, length - thick), hubs, strict=True):
+            t.add("flange", lying(disc(rim, low, low + thick, style)), lying(one))
+        t.add("pipe", lying(pipe_piece(self.dn, 0.4 * length, 0.6 * length, style)))
+        return t.model(length, split=True)
 
 
-def _thin_flange(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class ThinDisc(_Fitting, name="flange/thin disc", label="flange", bundle="flange", weight=1.2):
     """Thin discs, one or two face to face, round a running pipe."""
-    rim, count = FLANGES[dn].outer / 2 * num(rng, 0.8, 1.05), int(rng.integers(1, 3))
-    thick = num(rng, 0.004, 0.02)
-    length = round(0.06 + 2 * thick, 6)
-    gap = pick(rng, 0.0, 0.0, 0.002, 0.004)
-    parts = [part("pipe", lying(pipe_piece(dn, 0.0, length, style)), color="pipe", bundle="pipe")]
-    for k in range(count):
-        low = 0.03 + k * (thick + gap)
-        bore = PIPES[dn].radius if style.hollow else 0.0
-        parts.append(part("flange", lying(sleeve(bore, rim, low, low + thick, style)), color="flange", bundle="flange"))
-    return Model(parts, length, "welded")
+
+    rim: float = between(0.8, 1.05, "outside / of a flange")
+    count: int = whole(1, 2, "discs")
+    thick: float = between(0.004, 0.02, "of a disc", "m")
+    gap: float = among((0.0, 0.0, 0.002, 0.004), "between the discs", "m")
+
+    def build(self, t: Table) -> Model:
+        rim, thick, length = t.flange.outer / 2 * self.rim, self.thick, round(0.06 + 2 * self.thick, 6)
+        t.bundled("pipe").add("pipe", lying(pipe_piece(self.dn, 0.0, length, t.style)))
+        for k in range(self.count):
+            low = 0.03 + k * (thick + self.gap)
+            bore = t.pipe.radius if t.style.hollow else 0.0
+            t.add("flange", lying(sleeve(bore, rim, low, low + thick, t.style)))
+        return t.model(length, "welded")
 
 
-_SMALL = sized(15, 65)
-
-PRIMITIVE_FITTINGS: tuple[Family, ...] = (
-    family("reducer/bare cone", "inline", _PIPE, _reducer, sizes=sized(20, 400), weight=2),
-    family("reducer/slanted cone", "inline", _PIPE, partial(_reducer, eccentric=True), sizes=sized(20, 400)),
-    family("tee/crossed cylinders", "inline", _PIPE, _tee, weight=3),
-    family("cross/crossed cylinders", "inline", _PIPE, partial(_tee, arms=2)),
-    family("tee/ball with ends", "inline", _PIPE, _screwed, sizes=_SMALL),
-    family("cross/ball with ends", "inline", _PIPE, partial(_screwed, arms=2), sizes=_SMALL),
-    family("coupling/short cylinder", "inline", _PIPE, _coupling),
-    family("union/three cylinders", "inline", _PIPE, partial(_coupling, name="union"), sizes=_SMALL),
-    family("flange/disc and cone", "inline", _PIPE, _flange_pair, weight=1.5),
-    family("flange/thin disc", "inline", _PIPE, _thin_flange, weight=1.2),
-    family("strainer/slanted cylinder", "inline", _PIPE, _strainer, weight=0.7),
-    family("expansion joint/discs", "inline", _PIPE, _bellows, weight=0.6),
-    family("pipe cap/cylinder", "end", _PIPE, _cap, weight=2),
-    family("elbow/piece of torus", "end", _PIPE, _elbow, weight=2),
-    family("blind flange/plain disc", "head", _PIPE, _blind),
-    family("branch outlet/snout", "tap", _PIPE, _outlet, weight=3),
+PRIMITIVE_FITTINGS: tuple[Family, ...] = families_of(
+    BareCone,
+    SlantedCone,
+    CrossedTee,
+    CrossedCross,
+    BallTee,
+    BallCross,
+    ShortCylinder,
+    ThreeCylinders,
+    DiscAndCone,
+    ThinDisc,
+    SlantedCylinder,
+    Discs,
+    Cap,
+    TorusPiece,
+    PlainDisc,
+    Outlet,
 )
