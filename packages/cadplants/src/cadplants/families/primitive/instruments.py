@@ -2,200 +2,278 @@
 
 from __future__ import annotations
 
-from functools import partial
+from typing import ClassVar
 
 import numpy as np
 
 from cadgraph.model.scene import Floats
-from cadplants.families.chance import chance, num, pick
-from cadplants.families.primitive.shape import disc, family, lying, part, sized, torus_piece
-from cadplants.family import Family, Model, Part, fronted, placed
+from cadplants.builder.device import Device, families_of
+from cadplants.builder.params import Params, among, between, chance, given, nested
+from cadplants.builder.table import Table
+from cadplants.families.primitive.shape import disc, lying, sized, torus_piece
+from cadplants.family import Family, Model
 from cadplants.mesh_ops import merge, moved
-from cadplants.modeling_style import ModelingStyle
 from cadplants.primitives import box, cylinder, ring
-from cadplants.standards import FLANGES, PIPES
 from cadplants.transforms import at, spun
 
-__all__ = ["PRIMITIVE_INSTRUMENTS", "case_parts"]
+__all__ = ["PRIMITIVE_INSTRUMENTS"]
 
-_GAUGE, _STEM, _CASE = "Gauge assembly", "gauge stem", "gauge case"
+_STEM, _CASE = "gauge stem", "gauge case"
+_FRONT = (0.0, 0.0, 1.0)
 
 
-def case_parts(
-    radius: float, style: ModelingStyle, rng: np.random.Generator, ringed: bool, detail: bool = True
-) -> list[Part]:
-    """A round case about z, its front towards +z: solid or a ring, with a face, a needle and a glass or without [m].
+class _Case(Params):
+    """A round case: solid or a ring, with a face, a needle and a glass or without."""
 
-    Args:
-        radius: of the case [m].
-        style: that models it.
-        rng: of its parts.
-        ringed: whether the case is an open ring, with a back or without.
-        detail: whether it may have more than its case.
-    """
-    deep, n = radius * num(rng, 0.35, 0.9), style.round(radius)
-    wall = radius * num(rng, 0.06, 0.2)
-    floor = 0.0
-    if ringed:
-        solids = [ring(radius - wall, radius, 0.0, deep, n)]
-        if chance(rng, 0.6):
+    ringed: bool = given(False, "an open ring, not solid")
+    detailed: bool = chance(0.5, "it may have more than its case", when=lambda p: not p.ringed, otherwise=True)
+    deep: float = between(0.35, 0.9, "depth / radius")
+    wall: float = between(0.06, 0.2, "thickness of the ring / radius")
+    backed: bool = chance(0.6, "the ring has a back", when=lambda p: p.ringed)
+    lipped: bool = chance(0.4, "the ring has a lip", when=lambda p: p.ringed)
+    faced: bool = chance(0.5, "it has a face", when=lambda p: p.detailed and not p.ringed, otherwise=True)
+    pointed: bool = chance(0.6, "it has a needle", when=lambda p: p.detailed)
+    reading: float = between(0, 2 * np.pi, "where that points", "rad", when=lambda p: p.pointed)
+    glazed: bool = chance(0.6, "it has a glass", when=lambda p: p.detailed)
+    turn: float = between(0, 2 * np.pi, "which way it looks", "rad")
+
+    def build(self, t: Table, radius: float, height: float) -> None:
+        """Puts it down upright, its axis at a height [m]."""
+        t = t.bundled(_CASE).spun("z", self.turn).at(0, 0.3 * radius, height).spun("x", np.pi / 2)
+        deep, wall, n = radius * self.deep, radius * self.wall, t.n(radius)
+        floor = 0.0 if self.ringed else deep
+        solids = [ring(radius - wall, radius, 0.0, deep, n) if self.ringed else cylinder(radius, 0.0, deep, n)]
+        if self.backed:
             floor = 0.2 * deep
             solids.append(cylinder(radius - 0.5 * wall, 0.0, floor, n))
-        if chance(rng, 0.4):
+        if self.lipped:
             solids.append(ring(radius - wall, 1.06 * radius, 0.85 * deep, 1.04 * deep, n))
-    else:
-        solids = [cylinder(radius, 0.0, deep, n)]
-        floor = deep
-    parts = [part(_CASE, *solids, color="gauge", bundle=_CASE)]
-    if not detail:
-        return parts
-    inner = radius - wall if ringed else 0.92 * radius
-    thin = max(0.0008, 0.02 * radius)
-    if ringed or chance(rng, 0.5):
-        parts.append(part("gauge face", cylinder(inner, floor, floor + thin, n), color="dial", bundle=_CASE))
-    if chance(rng, 0.6):
-        bar = moved(box((0.9 * inner, 0.06 * inner, thin), (0.3 * inner, 0, 0)), spun("z", num(rng, 0, 2 * np.pi)))
-        hub = cylinder(0.09 * inner, -0.5 * thin, 1.5 * thin, 8)
-        needle = moved(merge([bar, hub]), at(0, 0, floor + 2 * thin))
-        parts.append(part("gauge needle", needle, color="needle", bundle=_CASE))
-    if chance(rng, 0.6):
-        low = max(0.85 * deep if ringed else floor, floor + 3.6 * thin)
-        parts.append(part("gauge glass", cylinder(inner, low, low + 1.5 * thin, n), color="dial", bundle=_CASE))
-    return fronted(parts)
+        t.add(_CASE, *solids)
+        if not self.detailed:
+            return
+        inner, thin = radius - wall if self.ringed else 0.92 * radius, max(0.0008, 0.02 * radius)
+        if self.faced:
+            t.add("gauge face", cylinder(inner, floor, floor + thin, n), front=_FRONT)
+        if self.pointed:
+            bar = moved(box((0.9 * inner, 0.06 * inner, thin), (0.3 * inner, 0, 0)), spun("z", self.reading))
+            hub = cylinder(0.09 * inner, -0.5 * thin, 1.5 * thin, 8)
+            t.at(0, 0, floor + 2 * thin).add("gauge needle", bar, hub, front=_FRONT)
+        if self.glazed:
+            low = max(0.85 * deep if self.ringed else floor, floor + 3.6 * thin)
+            t.add("gauge glass", cylinder(inner, low, low + 1.5 * thin, n), of="dial", front=_FRONT)
 
 
-def _upright(parts: list[Part], height: float, deep: float, rng: np.random.Generator) -> list[Part]:
-    """A case about z turned to look level, its axis at a height [m]."""
-    return placed(parts, spun("z", num(rng, 0, 2 * np.pi)) @ at(0, deep, height) @ spun("x", np.pi / 2))
+class _Rod(Params):
+    """A rod up from z = 0, at times with a square or a six-sided piece."""
+
+    radius: float = between(0.005, 0.011, "of the rod", "m")
+    form: str = among(("plain", "six-sided", "square", "plain"), "piece on it")
+
+    def build(self, t: Table, height: float) -> None:
+        """Puts it down up to a height [m]."""
+        r = self.radius
+        solids = [cylinder(r, 0.0, height, min(t.n(r), 12))]
+        if self.form == "six-sided":
+            solids.append(cylinder(1.8 * r, 0.1 * height, 0.35 * height, 6))
+        elif self.form == "square":
+            solids.append(box((2.6 * r, 2.6 * r, 0.35 * height), (0, 0, 0.6 * height)))
+        t.bundled(_STEM).add(_STEM, *solids, of="trim")
 
 
-def _stem(height: float, style: ModelingStyle, rng: np.random.Generator) -> Part:
-    """A rod up from z = 0, at times with a square or a six-sided piece [m]."""
-    r = num(rng, 0.005, 0.011)
-    solids = [cylinder(r, 0.0, height, min(style.round(r), 12))]
-    kind = int(rng.integers(4))
-    if kind == 1:
-        solids.append(cylinder(1.8 * r, 0.1 * height, 0.35 * height, 6))
-    elif kind == 2:
-        solids.append(box((2.6 * r, 2.6 * r, 0.35 * height), (0, 0, 0.6 * height)))
-    return part(_STEM, *solids, color="trim", bundle=_STEM)
-
-
-def _gauge(_: int, style: ModelingStyle, rng: np.random.Generator, ringed: bool = False) -> Model:
+class _OnRod(Params):
     """A rod and a round case upright on it."""
-    radius, rise = pick(rng, 0.025, 0.0315, 0.05, 0.05, 0.08), num(rng, 0.02, 0.1)
-    case = _upright(
-        case_parts(radius, style, rng, ringed, ringed or chance(rng, 0.5)), rise + radius, 0.3 * radius, rng
-    )
-    return Model([_stem(rise + 0.1 * radius, style, rng), *case], kind="pressure gauge")
+
+    ringed: bool = given(False, "its case is an open ring")
+    radius: float = among((0.025, 0.0315, 0.05, 0.05, 0.08), "of the case", "m")
+    rise: float = between(0.02, 0.1, "height of the case's underside", "m")
+    case: _Case = nested(lambda s, p: _Case.draw(s, {"ringed": p.ringed}), "case")
+    rod: _Rod = nested(_Rod, "rod")
+
+    def build(self, t: Table) -> None:
+        """Puts it down on z = 0."""
+        self.rod.build(t, self.rise + 0.1 * self.radius)
+        self.case.build(t, self.radius, self.rise + self.radius)
 
 
-def _path(kind: str, reach: float, high: float) -> Floats:
-    """The middle line of a siphon from the origin up [m]."""
-    if kind == "pigtail":
-        turns = np.linspace(np.pi, -np.pi, 17)
-        low = 0.3 * high + reach
-        loop = np.column_stack(
-            [reach + reach * np.cos(turns), np.linspace(0, 0.8 * reach, 17), low + reach * np.sin(turns)]
-        )
-        return np.vstack([[(0.0, 0.0, 0.0)], loop, [(0.0, 0.8 * reach, low + reach + 0.4 * high)]])
-    first = np.linspace(np.pi, 0.0, 7)
-    over = np.column_stack([reach + reach * np.cos(first), np.zeros(7), high + reach * np.sin(first)])
-    second = np.linspace(np.pi, 2 * np.pi, 7)
-    under = np.column_stack([3 * reach + reach * np.cos(second), np.zeros(7), 0.4 * high + reach * np.sin(second)])
-    return np.vstack([[(0.0, 0.0, 0.0)], over, under, [(4 * reach, 0.0, 1.3 * high)]])
+class _Instrument(Device, place="tap", group="Gauge assembly", label="gauge"):
+    """An instrument of primitives."""
 
 
-def _siphon(_: int, style: ModelingStyle, rng: np.random.Generator, kind: str = "u") -> Model:
-    """A bent bar as a siphon, with a gauge of a rod and a case on its end, or only a screwed end."""
-    r = num(rng, 0.005, 0.0105)
-    path = _path(kind, r * num(rng, 3.0, 5.5), num(rng, 0.08, 0.2))
-    n = min(style.round(r), 16)
-    solids = [torus_piece(path, r, n, 0.7 * r if style.hollow else 0.0)]
-    x, y, z = (float(v) for v in path[-1])
-    if chance(rng, 0.5):
-        solids.append(moved(cylinder(1.7 * r, -0.02, 0.0, 6), at(x, y, z)))
-    parts = [part("siphon", *solids, color="trim", bundle="siphon")]
-    gauge = _gauge(15, style, rng, chance(rng, 0.5))
+class RodAndDisc(_Instrument, name="gauge/rod and disc", weight=3):
+    """A rod and a round case upright on it."""
+
+    gauge: _OnRod = nested(lambda s, _: _OnRod.draw(s, {"ringed": False}), "gauge")
+
+    def build(self, t: Table) -> Model:
+        self.gauge.build(t)
+        return t.model(kind="pressure gauge")
+
+
+class RingCase(RodAndDisc, name="gauge/ring case", weight=2):
+    """A rod and a ring upright on it."""
+
+    gauge: _OnRod = nested(lambda s, _: _OnRod.draw(s, {"ringed": True}), "gauge")
+
+
+class BentBar(_Instrument, name="siphon/bent bar"):
+    """A bent bar as a U siphon, with a gauge of a rod and a case on its end, or only a screwed end."""
+
+    looped: ClassVar[bool] = False
+
+    radius: float = between(0.005, 0.0105, "of the bar", "m")
+    bend: float = between(3.0, 5.5, "radius of its bends / of the bar")
+    high: float = between(0.08, 0.2, "height of its bends", "m")
+    nut: bool = chance(0.5, "a nut at its end")
+    ringed: bool = chance(0.5, "the gauge's case is an open ring")
+    gauge: _OnRod = nested(lambda s, p: _OnRod.draw(s, {"ringed": p.ringed}), "gauge")
     # A hair of air or of overlap, as screwed pieces are drawn.
-    return Model([*parts, *placed(gauge.parts, at(x, y, z + pick(rng, 0.0, 0.0, -0.004)))], kind="pressure gauge")
+    gap: float = among((0.0, 0.0, -0.004), "between the bar and the gauge", "m")
+
+    def build(self, t: Table) -> Model:
+        r, path = self.radius, self._path()
+        solids = [torus_piece(path, r, min(t.n(r), 16), 0.7 * r if t.style.hollow else 0.0)]
+        x, y, z = (float(v) for v in path[-1])
+        if self.nut:
+            solids.append(moved(cylinder(1.7 * r, -0.02, 0.0, 6), at(x, y, z)))
+        t.bundled("siphon").add("siphon", *solids)
+        self.gauge.build(t.at(x, y, z + self.gap))
+        return t.model(kind="pressure gauge")
+
+    def _path(self) -> Floats:
+        """The middle line from the origin up [m]."""
+        reach, high = self.radius * self.bend, self.high
+        if self.looped:
+            turns = np.linspace(np.pi, -np.pi, 17)
+            low = 0.3 * high + reach
+            aside = np.linspace(0, 0.8 * reach, 17)
+            loop = np.column_stack([reach + reach * np.cos(turns), aside, low + reach * np.sin(turns)])
+            return np.vstack([[(0.0, 0.0, 0.0)], loop, [(0.0, 0.8 * reach, low + reach + 0.4 * high)]])
+        first, second = np.linspace(np.pi, 0.0, 7), np.linspace(np.pi, 2 * np.pi, 7)
+        over = np.column_stack([reach + reach * np.cos(first), np.zeros(7), high + reach * np.sin(first)])
+        under = np.column_stack([3 * reach + reach * np.cos(second), np.zeros(7), 0.4 * high + reach * np.sin(second)])
+        return np.vstack([[(0.0, 0.0, 0.0)], over, under, [(4 * reach, 0.0, 1.3 * high)]])
 
 
-def _transmitter(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class LoopedBar(BentBar, name="siphon/looped bar"):
+    """A bent bar as a pigtail, with a gauge of a rod and a case on its end, or only a screwed end."""
+
+    looped = True
+
+
+class Transmitter(_Instrument, name="transmitter/cylinder or box", label="transmitter", weight=1.5):
     """A rod with a level cylinder or a box on it."""
-    rise, size = num(rng, 0.03, 0.12), num(rng, 0.03, 0.06)
-    if chance(rng, 0.6):
-        head = lying(disc(size, -1.1 * size, 1.1 * size, style), 0, 0, rise + size)
-    else:
-        head = box((2 * size, 1.4 * size, 2 * size), (0, 0, rise + size))
-    whole = merge([head, box((1.6 * size, 1.2 * size, 0.5 * rise), (0, 0, 0.6 * rise))]) if chance(rng, 0.4) else head
-    name = "transmitter"
-    rod = _stem(rise + 0.2 * size, style, rng)
-    return Model([rod, part(name, whole, color="gauge", bundle=name)], kind="pressure transmitter")
+
+    rise: float = between(0.03, 0.12, "height of the head's underside", "m")
+    size: float = between(0.03, 0.06, "half the height of the head", "m")
+    round_: bool = chance(0.6, "the head is a cylinder")
+    boxed: bool = chance(0.4, "a box under the head")
+    rod: _Rod = nested(_Rod, "rod")
+
+    def build(self, t: Table) -> Model:
+        rise, size = self.rise, self.size
+        if self.round_:
+            solids = [lying(disc(size, -1.1 * size, 1.1 * size, t.style), 0, 0, rise + size)]
+        else:
+            solids = [box((2 * size, 1.4 * size, 2 * size), (0, 0, rise + size))]
+        if self.boxed:
+            solids.append(box((1.6 * size, 1.2 * size, 0.5 * rise), (0, 0, 0.6 * rise)))
+        self.rod.build(t, rise + 0.2 * size)
+        t.bundled("transmitter").add("transmitter", *solids, of="gauge")
+        return t.model(kind="pressure transmitter")
 
 
-def _thermowell(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class Thermowell(_Instrument, name="thermowell/rod", label="thermowell", bundle="thermowell"):
     """A rod with a short wide cylinder or a dome-less head across it."""
-    rise, size = num(rng, 0.05, 0.18), num(rng, 0.025, 0.045)
-    rod = disc(num(rng, 0.006, 0.012), 0.0, rise, style)
-    turn = pick(rng, 0.0, 0.3, 0.5) * np.pi
-    head = moved(disc(size, 0.0, 1.4 * size, style), at(0, 0, rise) @ spun("y", turn))
-    if turn:
-        head = moved(disc(size, -0.7 * size, 0.7 * size, style), at(0, 0, rise + 0.5 * size) @ spun("y", turn))
-    return Model(
-        [
-            part("thermowell", rod, color="gauge", bundle="thermowell"),
-            part("transmitter", head, color="gauge", bundle="thermowell"),
-        ]
-    )
+
+    rise: float = between(0.05, 0.18, "height of the rod", "m")
+    size: float = between(0.025, 0.045, "radius of the head", "m")
+    rod: float = between(0.006, 0.012, "radius of the rod", "m")
+    turn: float = among((0.0, 0.3, 0.5), "of the head from upright / half a turn")
+
+    def build(self, t: Table) -> Model:
+        size = self.size
+        t.add("thermowell", disc(self.rod, 0.0, self.rise, t.style), of="gauge")
+        head, lift = (disc(size, -0.7 * size, 0.7 * size, t.style), 0.5 * size) if self.turn else (None, 0.0)
+        head = head or disc(size, 0.0, 1.4 * size, t.style)
+        t.at(0, 0, self.rise + lift).spun("y", self.turn * np.pi).add("transmitter", head, of="gauge")
+        return t.model()
 
 
-def _meter(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class MeterCylinder(
+    _Instrument,
+    name="flow meter/cylinder",
+    place="inline",
+    label="flow meter",
+    bundle="flow meter",
+    sizes=sized(15, 300),
+    weight=2,
+):
     """A cylinder along the line with a box or a cylinder on a neck."""
-    r, length = PIPES[dn].radius, round(FLANGES[dn].outer * num(rng, 0.8, 1.6) + 0.04, 6)
-    wide = r * num(rng, 1.0, 1.5)
-    body = lying(disc(wide, 0.0, length, style))
-    size = num(rng, 0.04, 0.09)
-    neck = disc(0.35 * size, 0.0, wide + size, style)
-    top = wide + 1.6 * size
-    head = box((2 * size, 1.5 * size, 1.6 * size), (0, 0, top))
-    if chance(rng, 0.5):
-        head = lying(disc(0.8 * size, -size, size, style), 0, 0, top)
-    parts = [part("flow meter", body, color="gauge", bundle="flow meter")]
-    upper = moved(merge([neck, head]), at(length / 2))
-    parts.append(part("transmitter", upper, color="gauge", bundle="flow meter"))
-    return Model(parts, length, kind="flow meter")
+
+    length: float = between(0.8, 1.6, "(face to face - 40 mm) / outside of the flange")
+    wide: float = between(1.0, 1.5, "radius / of the pipe")
+    size: float = between(0.04, 0.09, "half the width of the head", "m")
+    round_: bool = chance(0.5, "the head is a cylinder")
+
+    def build(self, t: Table) -> Model:
+        length, size, style = round(t.flange.outer * self.length + 0.04, 6), self.size, t.style
+        wide = t.pipe.radius * self.wide
+        top = wide + 1.6 * size
+        head = box((2 * size, 1.5 * size, 1.6 * size), (0, 0, top))
+        if self.round_:
+            head = lying(disc(0.8 * size, -size, size, style), 0, 0, top)
+        t.add("flow meter", lying(disc(wide, 0.0, length, style)))
+        t.at(length / 2).add("transmitter", disc(0.35 * size, 0.0, wide + size, style), head, of="gauge")
+        return t.model(length, kind="flow meter")
 
 
-def _sight(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class CrossedSight(
+    _Instrument,
+    name="sight glass/crossed cylinders",
+    place="inline",
+    label="sight glass",
+    bundle="sight glass",
+    weight=0.6,
+):
     """A cylinder along the line with a short one across."""
-    r, length = PIPES[dn].radius, round(FLANGES[dn].outer * num(rng, 0.8, 1.3), 6)
-    across = moved(disc(0.9 * r, -1.5 * r, 1.5 * r, style), at(length / 2) @ spun("x", np.pi / 2))
-    solid = merge([lying(disc(r * num(rng, 1.0, 1.3), 0.0, length, style)), across])
-    return Model([part("sight glass", solid, color="gauge", bundle="sight glass")], length, kind="sight glass")
+
+    length: float = between(0.8, 1.3, "face to face / outside of the flange")
+    wide: float = between(1.0, 1.3, "radius / of the pipe")
+
+    def build(self, t: Table) -> Model:
+        r, length = t.pipe.radius, round(t.flange.outer * self.length, 6)
+        across = moved(disc(0.9 * r, -1.5 * r, 1.5 * r, t.style), at(length / 2) @ spun("x", np.pi / 2))
+        t.add("sight glass", merge([lying(disc(r * self.wide, 0.0, length, t.style)), across]), of="gauge")
+        return t.model(length, kind="sight glass")
 
 
-def _level(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class LevelRod(_Instrument, name="level gauge/rod", place="floor", label="level gauge", bundle="level gauge"):
     """An upright rod or box beside two level stubs, on a plate or a post."""
-    high, r = num(rng, 0.4, 1.5), num(rng, 0.012, 0.03)
-    low = num(rng, 0.2, 0.8)
-    column = disc(r, low, low + high, style) if chance(rng, 0.6) else box((2 * r, 3 * r, high), (0, 0, low + high / 2))
-    arms = [lying(disc(0.6 * r, -0.2, 0.0, style), 0, 0, low + share * high) for share in (0.1, 0.9)]
-    post = box((0.05, 0.05, low + high + 0.1), (-0.225, 0, (low + high + 0.1) / 2))
-    post_part = part("post", post, color="steel", group="Structural element")
-    return Model(
-        [part("level gauge", column, *arms, color="gauge", bundle="level gauge"), post_part], kind="level gauge"
-    )
+
+    high: float = between(0.4, 1.5, "height of the rod", "m")
+    radius: float = between(0.012, 0.03, "of the rod", "m")
+    low: float = between(0.2, 0.8, "height of its foot", "m")
+    round_: bool = chance(0.6, "it is no box")
+
+    def build(self, t: Table) -> Model:
+        high, r, low = self.high, self.radius, self.low
+        upright = box((2 * r, 3 * r, high), (0, 0, low + high / 2))
+        if self.round_:
+            upright = disc(r, low, low + high, t.style)
+        arms = [lying(disc(0.6 * r, -0.2, 0.0, t.style), 0, 0, low + share * high) for share in (0.1, 0.9)]
+        t.add("level gauge", upright, *arms, of="gauge")
+        t.add("post", box((0.05, 0.05, low + high + 0.1), (-0.225, 0, (low + high + 0.1) / 2)))
+        return t.model(kind="level gauge")
 
 
-PRIMITIVE_INSTRUMENTS: tuple[Family, ...] = (
-    family("gauge/rod and disc", "tap", _GAUGE, _gauge, weight=3),
-    family("gauge/ring case", "tap", _GAUGE, partial(_gauge, ringed=True), weight=2),
-    family("siphon/bent bar", "tap", _GAUGE, _siphon, "gauge"),
-    family("siphon/looped bar", "tap", _GAUGE, partial(_siphon, kind="pigtail"), "gauge"),
-    family("transmitter/cylinder or box", "tap", _GAUGE, _transmitter, weight=1.5),
-    family("thermowell/rod", "tap", _GAUGE, _thermowell, "thermowell"),
-    family("flow meter/cylinder", "inline", _GAUGE, _meter, sizes=sized(15, 300), weight=2),
-    family("sight glass/crossed cylinders", "inline", _GAUGE, _sight, weight=0.6),
-    family("level gauge/rod", "floor", _GAUGE, _level),
+PRIMITIVE_INSTRUMENTS: tuple[Family, ...] = families_of(
+    RodAndDisc,
+    RingCase,
+    BentBar,
+    LoopedBar,
+    Transmitter,
+    Thermowell,
+    MeterCylinder,
+    CrossedSight,
+    LevelRod,
 )
