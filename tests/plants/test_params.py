@@ -33,6 +33,7 @@ class Coil(Device, name="siphon/coil", place="tap", group="Pipe assembly", label
     form: str = weighted("how it is bent", round=0.7, pig_tail=0.3)
     valve: bool = chance(0.5, "a valve sits on it")
     knob: Knob = nested(Knob, "of the valve", when=lambda p: p.valve)
+    size: float = between(1.0, 3.0, "of the valve", when=lambda p: p.valve)
 
     def build(self, t):
         t.add("pipe", box((0.1, 0.1, 0.1 * self.loops)))
@@ -93,6 +94,7 @@ def test_text_is_understood_and_pieces_have_names_of_their_own():
         ({"lops": 1}, "lops: no parameter; there are dn, loops"),
         ({"valve": True, "knob.radius": 1}, "knob.radius=1: give 0.02 to 0.04"),
         ({"valve": False, "knob.radius": 0.03}, "knob.radius: the device has no knob"),
+        ({"valve": False, "size": 2.0}, "size=2.0: the device has none, as its other parameters are"),
     ],
 )
 def test_what_can_not_be_is_refused_by_name(told, message):
@@ -106,6 +108,12 @@ def test_parameters_are_plain_json_that_makes_the_same_device_again():
     again = {f"knob.{k}": v for k, v in said.pop("knob").items() if k != "kind"}
     made = Coil.draw(Apart(99), **said, **again)
     assert made.to_json() == one.to_json()
+
+
+def test_what_a_device_does_not_have_may_be_repeated_as_it_was_said():
+    one = Coil.draw(Apart(4), valve=False)
+    assert one.size == 0.0
+    assert Coil.draw(Apart(4), valve=False, size=0.0, knob=None) == one
 
 
 def test_people_read_every_parameter_with_its_unit_and_what_it_can_be():
@@ -148,3 +156,10 @@ def test_pieces_of_which_there_are_several_are_read_one_by_one():
     drawn = Housing.draw(Apart(3), count=2)
     assert {"feet.0.radius", "feet.1.lobes"} <= {row[0] for row in drawn.rows()}
     assert json.loads(json.dumps(drawn.to_json()))["feet"][1]["lobes"] == drawn.feet[1].lobes
+
+
+def test_a_parameter_takes_no_name_that_a_device_has():
+    with pytest.raises(TypeError, match="a device has that already"):
+
+        class Clash(Device, name="filter/clash"):
+            label: str = among(("one", "two"), "what stands on it")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import Field, dataclass, replace
 from typing import Any, ClassVar
 
 import numpy as np
@@ -50,6 +50,9 @@ class Device(Params):
     dn: int = given(0, "nominal size", "mm")
 
     def __init_subclass__(cls, **said: Any) -> None:
+        taken = [key for key, value in vars(cls).items() if isinstance(value, Field) and hasattr(Device, key)]
+        if set(taken) - {"dn"}:
+            raise TypeError(f"{cls.__name__}.{taken[0]}: a device has that already; call the parameter something else")
         cls.name = said.pop("name", "")
         for key in _SAID[1:]:
             if key in said:

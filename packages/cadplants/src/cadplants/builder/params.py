@@ -161,15 +161,15 @@ def whole(low: int, high: int, about: str, *, when: When | None = None, otherwis
 
 def chance(share: float, about: str, *, when: When | None = None, otherwise: bool = False) -> bool:
     """Whether something is there, or is so, that is so this often."""
+    limits, draw = f"yes or no, {share:.0%} yes", lambda s, _: bool(s.rng.random() < share)
+    return _field(Field(about, "", limits, draw, lambda value, _: _yes_or_no(value), when, otherwise))  # type: ignore[no-any-return]
 
-    def accept(value: Any, _: Any) -> bool:
-        text = str(value).lower()
-        if text not in ("true", "false", "yes", "no", "1", "0"):
-            raise ValueError("give yes or no")
-        return text in ("true", "yes", "1")
 
-    limits = f"yes or no, {share:.0%} yes"
-    return _field(Field(about, "", limits, lambda s, _: bool(s.rng.random() < share), accept, when, otherwise))  # type: ignore[no-any-return]
+def _yes_or_no(value: Any) -> bool:
+    text = str(value).lower()
+    if text not in ("true", "false", "yes", "no", "1", "0"):
+        raise ValueError("give yes or no")
+    return text in ("true", "yes", "1")
 
 
 def among(
@@ -198,7 +198,7 @@ def among(
     def accept(value: Any, before: Any) -> T:
         some = choices(before)
         for item in some:
-            if value == item or str(value) in (str(item), _told(item)):
+            if _is_told(value, item):
                 return item
         if all(isinstance(item, float) for item in some):
             # A size that no draw takes may be asked for, as far as it lies among those that draws take.
@@ -230,8 +230,8 @@ def weighted(about: str, *, when: When | None = None, otherwise: str = "", **sha
 
 def given(default: T, about: str, unit: str = "") -> T:
     """What is not drawn but said by whoever asks for the device: a nominal size, a height."""
-    kind = type(default)
-    return _field(Field(about, unit, f"{default} unless given", lambda *_: default, lambda v, _: kind(v)))  # type: ignore[call-arg, no-any-return]
+    kind: Any = _yes_or_no if isinstance(default, bool) else type(default)
+    return _field(Field(about, unit, f"{_told(default)} unless given", lambda *_: default, lambda v, _: kind(v)))  # type: ignore[no-any-return]
 
 
 def styled(default: T, about: str) -> T:
@@ -325,10 +325,12 @@ class Params:
             inner = _below(name, given), _below(name, fixed)
             if name in fixed:
                 values[name] = fixed[name]
+            elif spec.when is not None and not spec.when(before):
+                if name in given and not _is_told(given[name], spec.otherwise):
+                    raise ValueError(f"{name}={given[name]}: the device has none, as its other parameters are")
+                values[name] = spec.otherwise
             elif name in given:
                 values[name] = _accepted(name, spec, given[name], before)
-            elif spec.when is not None and not spec.when(before):
-                values[name] = spec.otherwise
             elif any(inner) and spec.piece is not None:
                 values[name] = _draw_piece(name, spec.piece, source.of(name), *inner)
                 continue
@@ -405,6 +407,11 @@ def _draw_piece(
         return kind.draw(source, fixed, **given)
     except ValueError as error:
         raise ValueError(f"{name}.{error}") from None
+
+
+def _is_told(value: Any, item: Any) -> bool:
+    """Whether a value that is given, maybe as text, stands for something."""
+    return bool(value == item) or str(value) in (str(item), _told(item))
 
 
 def _told(value: Any) -> str:
