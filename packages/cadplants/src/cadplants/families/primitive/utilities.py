@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from functools import partial
-
 import numpy as np
 
-from cadplants.families.chance import chance, num, pick
-from cadplants.families.primitive.shape import FRAME, cone, disc, family, lying, part, torus_piece
-from cadplants.family import Family, Model, Part
-from cadplants.mesh_ops import Solid, extrude, merge, moved
-from cadplants.modeling_style import ModelingStyle
+from cadgraph.model.scene import Floats
+from cadplants.builder.device import Device, families_of
+from cadplants.builder.params import Params, Source, among, between, chance, given, nested, several, whole
+from cadplants.builder.table import Table
+from cadplants.families.primitive.shape import cone, disc, lying, torus_piece
+from cadplants.family import Family, Model
+from cadplants.mesh_ops import Solid, extrude, moved
 from cadplants.polygon import rounded_rectangle
 from cadplants.primitives import ball, bar, box, cylinder, ring, rod
 from cadplants.standards import PIPES
@@ -18,269 +18,465 @@ from cadplants.transforms import at, spun
 
 __all__ = ["PRIMITIVE_UTILITIES"]
 
-_SAFETY, _HELD = "Electrical and safety", "Connection assembly"
+_BOTH = (-1, 1)
 
 
-def _duct_piece(length: float, wide: float, high: float, kind: str, rng: np.random.Generator) -> list[Solid]:
-    """A straight piece of a cable way along x from 0, its underside on z = 0 [m]."""
-    t = max(0.002, 0.02 * wide)
-    if kind == "solid":
-        return [box((length, wide, high), (length / 2, 0, high / 2))]
-    if kind == "duct":
-        outer = rounded_rectangle(wide, high, 0.0)
-        hole = rounded_rectangle(wide - 2 * t, high - 2 * t, 0.0)
-        return [bar((0, 0, high / 2), (length, 0, high / 2), outer, (hole,))]
-    if kind == "tray":
-        solids = [box((length, wide, t), (length / 2, 0, t / 2))]
-        return solids + [box((length, t, high), (length / 2, s * (wide - t) / 2, high / 2)) for s in (-1, 1)]
-    rails = [box((length, 2 * t, high), (length / 2, s * (wide / 2 - t), high / 2)) for s in (-1, 1)]
-    gap = pick(rng, 0.2, 0.25, 0.3)
-    rungs = [box((0.03, wide - 4 * t, 0.4 * high), (x, 0, 0.3 * high)) for x in np.arange(0.1, length, gap)]
-    return [*rails, *rungs]
+class _Utility(Device, group="Electrical and safety", sizes=(15,), grain="fitting"):
+    """An electrical or safety device of primitives."""
 
 
-def _tray(_: int, style: ModelingStyle, rng: np.random.Generator, kind: str = "duct") -> Model:
+# --- cable ways ---
+
+
+class _Stretch(Params):
+    """A straight piece of a cable way, and how it goes on."""
+
+    form: str = given("duct", "of the way")
+    followed: bool = given(False, "whether another stretch follows")
+    longest: float = given(6.0, "its greatest length", "m")
+    length: float = between(1.0, lambda p: p.longest, "length", "m")
+    gap: float = among((0.2, 0.25, 0.3), "between rungs", "m", when=lambda p: p.form == "rungs", otherwise=0.0)
+    one: bool = chance(0.5, "rails and rungs are one mesh", when=lambda p: p.form == "rungs", otherwise=True)
+    held: bool = chance(0.6, "a post under it")
+    turned: bool = chance(0.6, "the next one goes round a corner", when=lambda p: p.followed)
+    turn: float = among(
+        (-0.5, 0.5),
+        "to the right or left / half a turn",
+        when=lambda p: p.turned and p.form in ("duct", "solid"),
+        otherwise=0.0,
+    )
+
+    def solids(self, wide: float, high: float) -> list[Solid]:
+        """Along x from 0, its underside on z = 0 [m]."""
+        length, w = self.length, max(0.002, 0.02 * wide)
+        if self.form == "solid":
+            return [box((length, wide, high), (length / 2, 0, high / 2))]
+        if self.form == "duct":
+            hole = rounded_rectangle(wide - 2 * w, high - 2 * w, 0.0)
+            return [bar((0, 0, high / 2), (length, 0, high / 2), rounded_rectangle(wide, high, 0.0), (hole,))]
+        if self.form == "tray":
+            walls = [box((length, w, high), (length / 2, s * (wide - w) / 2, high / 2)) for s in _BOTH]
+            return [box((length, wide, w), (length / 2, 0, w / 2)), *walls]
+        rails = [box((length, 2 * w, high), (length / 2, s * (wide / 2 - w), high / 2)) for s in _BOTH]
+        places = np.arange(0.1, length, self.gap)
+        return [*rails, *(box((0.03, wide - 4 * w, 0.4 * high), (x, 0, 0.3 * high)) for x in places)]
+
+
+class _Way(_Utility, label="cable tray", bundle="cable tray", grain="structure"):
     """A cable way of many metres, in one or more pieces with flanged collars and a turn at times, on posts or hung."""
-    wide, high = pick(rng, 0.1, 0.2, 0.3, 0.4, 0.6), pick(rng, 0.05, 0.1, 0.1, 0.2, 0.3)
-    level, count = num(rng, 0.4, 3.0), int(rng.integers(1, 4))
-    collars = kind in ("duct", "solid") and chance(rng, 0.4)
-    parts: list[Part] = []
-    pose = at(0, 0, level)
-    for k in range(count):
-        length = num(rng, 1.0, 6.0 if kind != "rungs" else 3.0)
-        pieces = [moved(one, pose) for one in _duct_piece(length, wide, high, kind, rng)]
-        whole = kind != "rungs" or chance(rng, 0.5)
-        shapes = [merge(pieces)] if whole else pieces
-        if collars:
-            edge = box((0.02, 1.25 * wide, high + 0.25 * wide), (0.01, 0, high / 2))
-            shapes.append(moved(edge, pose))
-        parts += [part("cable tray", one, color="electrical", bundle="cable tray") for one in shapes]
-        foot = pose @ at(0.5 * length)
-        x, y = float(foot[0, 3]), float(foot[1, 3])
-        if chance(rng, 0.6) and abs(foot[2, 3] - level) < 1e-9 and abs(pose[2, 0]) < 0.1:
-            parts.append(part("post", box((0.05, 0.05, level), (x, y, level / 2)), color="steel", group=FRAME))
-        pose = pose @ at(length)
-        if k < count - 1 and chance(rng, 0.6):
-            corner = moved(box((wide, wide, high), (wide / 2, 0, high / 2)), pose)
-            if kind in ("duct", "solid"):
-                parts.append(part("cable tray", corner, color="electrical", bundle="cable tray"))
-                pose = pose @ at(wide / 2) @ spun("z", pick(rng, -0.5, 0.5) * np.pi) @ at(wide / 2)
-    return Model(parts)
+
+    wide: float = among((0.1, 0.2, 0.3, 0.4, 0.6), "width", "m")
+    high: float = among((0.05, 0.1, 0.1, 0.2, 0.3), "height", "m")
+    level: float = between(0.4, 3.0, "height over the floor", "m")
+    count: int = whole(1, 3, "stretches")
+
+    def put(self, t: Table, stretches: tuple[_Stretch, ...], collared: bool) -> Model:
+        """Puts stretches down one after the other."""
+        wide, high, level, pose = self.wide, self.high, self.level, at(0, 0, self.level)
+        for one in stretches:
+            here, solids = t.moved(pose), one.solids(wide, high)
+            for some in [solids] if one.one else [[each] for each in solids]:
+                here.add("cable tray", *some)
+            if collared:
+                here.add("cable tray", box((0.02, 1.25 * wide, high + 0.25 * wide), (0.01, 0, high / 2)))
+            foot = (pose @ at(0.5 * one.length))[:3, 3]
+            if one.held and abs(foot[2] - level) < 1e-9 and abs(pose[2, 0]) < 0.1:
+                t.add("post", box((0.05, 0.05, level), (float(foot[0]), float(foot[1]), level / 2)))
+            pose = pose @ at(one.length)
+            if one.turn:
+                t.moved(pose).add("cable tray", box((wide, wide, high), (wide / 2, 0, high / 2)))
+                pose = pose @ at(wide / 2) @ spun("z", one.turn * np.pi) @ at(wide / 2)
+        return t.model()
 
 
-def _conduit(_: int, style: ModelingStyle, rng: np.random.Generator, name: str = "conduit") -> Model:
-    """Round bars side by side up and along, with sleeves on them at times; thin and uneven ones as cables."""
-    cable = name == "cable"
-    r, count = (
-        (num(rng, 0.003, 0.009), int(rng.integers(2, 8))) if cable else (num(rng, 0.01, 0.025), int(rng.integers(1, 5)))
+def _first(form: str) -> tuple[_Stretch, ...]:
+    longest = 3.0 if form == "rungs" else 6.0
+    told = {"form": form, "followed": True, "longest": longest}
+    return several(lambda rng, _: _Stretch.draw(rng, told), lambda p: p.count - 1, "stretches before the last")
+
+
+def _last(form: str) -> _Stretch:
+    longest = 3.0 if form == "rungs" else 6.0
+    return nested(lambda s, _: _Stretch.draw(s, {"form": form, "followed": False, "longest": longest}), "last stretch")
+
+
+class PlainDuct(_Way, name="cable tray/plain duct", weight=2.0):
+    """A cable duct of many metres, in one or more pieces with flanged collars and a turn at times, on posts or hung."""
+
+    collars: bool = chance(0.4, "a collar at the start of each stretch")
+    first: tuple[_Stretch, ...] = _first("duct")
+    last: _Stretch = _last("duct")
+
+    def build(self, t: Table) -> Model:
+        return self.put(t, (*self.first, self.last), self.collars)
+
+
+class PlainSolid(PlainDuct, name="cable tray/plain solid", weight=2.0):
+    """A cable duct as a solid bar, in one or more pieces with flanged collars and a turn at times, on posts or hung."""
+
+    first: tuple[_Stretch, ...] = _first("solid")
+    last: _Stretch = _last("solid")
+
+
+class PlainTray(_Way, name="cable tray/plain tray"):
+    """A cable tray of many metres, in one or more pieces, on posts or hung."""
+
+    first: tuple[_Stretch, ...] = _first("tray")
+    last: _Stretch = _last("tray")
+
+    def build(self, t: Table) -> Model:
+        return self.put(t, (*self.first, self.last), False)
+
+
+class PlainRungs(PlainTray, name="cable tray/plain rungs"):
+    """A cable ladder of many metres, in one or more pieces, on posts or hung."""
+
+    first: tuple[_Stretch, ...] = _first("rungs")
+    last: _Stretch = _last("rungs")
+
+
+def _box_under(t: Table, radius: float, count: int) -> None:
+    deep = 3 * radius * count + 0.08
+    t.add("junction box", box((0.12, deep, 0.2), (0, 1.5 * radius * (count - 1), -0.1)), own=False)
+
+
+class Conduit(_Utility, name="conduit/bent bars", label="conduit", bundle="conduit"):
+    """Round bars side by side up and along, with sleeves on them at times."""
+
+    radius: float = between(0.01, 0.025, "of a bar", "m")
+    count: int = whole(1, 4, "bars")
+    length: float = between(0.8, 5.0, "along", "m")
+    rise: float = between(0.4, 2.5, "up", "m")
+    sleeved: tuple[bool, ...] = several(
+        lambda rng, _: bool(rng.random() < 0.5), lambda p: p.count, "whether each has two sleeves"
     )
-    length, rise = num(rng, 0.8, 5.0), num(rng, 0.4, 2.5)
-    n = min(style.round(r), 12)
-    parts = []
-    for k in range(count):
-        y = 3 * r * k
-        path = [(0.0, y, 0.0), (0.0, y, rise), (length, y, rise)]
-        if cable:
-            x = np.linspace(0.2, length, 8)
-            loose = [(float(one), y + num(rng, -2, 2) * r, rise + num(rng, 0, 1) * r) for one in x]
-            path = [(0.0, y, 0.0), (0.0, y, rise - 0.2), (0.06, y, rise - 0.05), *loose]
-        solids = [torus_piece(path, r, n)]
-        if not cable and chance(rng, 0.5):
-            solids += [lying(cylinder(1.25 * r, 0.0, 4 * r, n), s * length, y, rise) for s in (0.3, 0.7)]
-        parts.append(part(name, *solids, color="electrical", bundle=name))
-    if chance(rng, 0.6):
-        deep = 3 * r * count + 0.08
-        cabinet = box((0.12, deep, 0.2), (0, 1.5 * r * (count - 1), -0.1))
-        parts.append(part("junction box", cabinet, color="electrical"))
-    return Model(parts)
+    boxed: bool = chance(0.6, "a box under them")
+
+    def build(self, t: Table) -> Model:
+        r, rise, length, n = self.radius, self.rise, self.length, min(t.n(self.radius), 12)
+        for k, sleeved in enumerate(self.sleeved):
+            y = 3 * r * k
+            solids = [torus_piece([(0.0, y, 0.0), (0.0, y, rise), (length, y, rise)], r, n)]
+            if sleeved:
+                solids += [lying(cylinder(1.25 * r, 0.0, 4 * r, n), s * length, y, rise) for s in (0.3, 0.7)]
+            t.add("conduit", *solids, of="electrical")
+        if self.boxed:
+            _box_under(t, r, self.count)
+        return t.model()
 
 
-def _boxed(_: int, style: ModelingStyle, rng: np.random.Generator, name: str) -> Model:
-    """A box on the floor or on a post: a panel, a junction box, a sign, a camera."""
-    size = {
-        "control panel": (num(rng, 0.4, 1.2), num(rng, 0.2, 0.6), num(rng, 0.8, 2.1)),
-        "junction box": (num(rng, 0.1, 0.3), num(rng, 0.06, 0.15), num(rng, 0.1, 0.4)),
-        "sign": (num(rng, 0.2, 0.6), 0.004, num(rng, 0.2, 0.5)),
-        "camera": (num(rng, 0.1, 0.2), 0.08, 0.08),
-    }[name]
-    low = 0.0 if name == "control panel" and chance(rng, 0.7) else num(rng, 0.9, 2.2)
-    solids = [box(size, (0, 0, low + size[2] / 2))]
-    if name == "camera":
-        solids.append(lying(disc(0.03, size[0] / 2, size[0] / 2 + 0.04, style), 0, 0, low + 0.04))
-    parts = [part(name, *solids, color="electrical", bundle=name)]
-    if low:
-        r = num(rng, 0.02, 0.04)
-        post = (
-            cylinder(r, 0, low, min(style.round(r), 16))
-            if chance(rng, 0.5)
-            else box((2 * r, 2 * r, low), (0, 0, low / 2))
-        )
-        parts.append(part("post", post, color="steel", group=FRAME))
-    return Model(parts)
+class Cable(_Utility, name="cable/bent bars", label="cable", bundle="cable", weight=0.5):
+    """Thin and uneven bars as cables, side by side up and along."""
 
-
-def _lamp(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
-    """A pole with a box, a cone or a ball on it."""
-    high, r = num(rng, 2.0, 6.0), num(rng, 0.03, 0.08)
-    head = pick(rng, 0, 1, 2)
-    solids = [
-        box((0.5, 0.2, 0.08), (0.2, 0, high)),
-        cone(0.1, 0.25, high, high + 0.15, style),
-        ball(0.15, style.round(0.15)),
-    ]
-    top = moved(solids[2], at(0, 0, high)) if head == 2 else solids[head]
-    pole = part("post", disc(r, 0.0, high, style), color="steel", group=FRAME)
-    return Model([part("lamp", top, color="electrical", bundle="lamp"), pole])
-
-
-def _bottle(_: int, style: ModelingStyle, rng: np.random.Generator, name: str) -> Model:
-    """A cylinder with a small one on top: an extinguisher; with two to the side: a hydrant."""
-    r, high = (
-        (num(rng, 0.06, 0.1), num(rng, 0.35, 0.6))
-        if name == "fire extinguisher"
-        else (num(rng, 0.06, 0.12), num(rng, 0.6, 1.1))
+    radius: float = between(0.003, 0.009, "of a cable", "m")
+    count: int = whole(2, 7, "cables")
+    length: float = between(0.8, 5.0, "along", "m")
+    rise: float = between(0.4, 2.5, "up", "m")
+    loose: tuple[tuple[float, float], ...] = several(
+        lambda rng, _: (float(rng.uniform(-2, 2)), float(rng.uniform(0, 1))),
+        lambda p: 8 * p.count,
+        "how far each of eight points of a cable is aside and up / radius",
     )
-    solids = [disc(r, 0.0, high, style), disc(0.4 * r, high, high + 0.6 * r, style)]
-    if name == "hydrant":
-        side = disc(0.5 * r, -1.8 * r, 1.8 * r, style)
-        solids += [moved(side, at(0, 0, 0.75 * high) @ spun("x", np.pi / 2)), disc(1.6 * r, 0.0, 0.03, style)]
-    else:
-        solids.append(box((1.6 * r, 0.02, 0.02), (0.4 * r, 0, high + 0.6 * r)))
-    return Model([part(name, *solids, color="safety", bundle=name)])
+    boxed: bool = chance(0.6, "a box under them")
+
+    def build(self, t: Table) -> Model:
+        r, rise, n = self.radius, self.rise, min(t.n(self.radius), 12)
+        xs = np.linspace(0.2, self.length, 8)
+        for k in range(self.count):
+            y = 3 * r * k
+            loose = self.loose[8 * k : 8 * k + 8]
+            along = [(float(x), y + a * r, rise + b * r) for x, (a, b) in zip(xs, loose, strict=True)]
+            path = [(0.0, y, 0.0), (0.0, y, rise - 0.2), (0.06, y, rise - 0.05), *along]
+            t.add("cable", torus_piece(path, r, n), of="electrical")
+        if self.boxed:
+            _box_under(t, r, self.count)
+        return t.model()
 
 
-def _ring_round(dn: int, style: ModelingStyle, rng: np.random.Generator) -> tuple[Solid, float]:
-    """A ring round a line and its outer radius [m]."""
-    inner = PIPES[dn].radius
-    outer = inner + max(0.004, 0.12 * inner)
-    half = num(rng, 0.015, 0.05)
-    return lying(ring(inner, outer, -half, half, style.round(outer))), outer
-
-
-def _shoe(dn: int, style: ModelingStyle, rng: np.random.Generator, height: float) -> Model:
-    """A plate, a T or a box under a line, on a beam, a post or a block that stands on the ground."""
-    r, length = PIPES[dn].radius, num(rng, 0.08, 0.25)
-    shoe = num(rng, 0.05, 0.1)
-    foot = -r - shoe
-    solids = [
-        box((length, 0.008, shoe + 0.1 * r), (0, 0, -r - shoe / 2 + 0.05 * r)),
-        box((length, 1.2 * r + 0.04, 0.008), (0, 0, foot + 0.004)),
-    ]
-    if chance(rng, 0.3):
-        solids = [box((length, 1.2 * r + 0.02, shoe + 0.15 * r), (0, 0, -r - shoe / 2 + 0.075 * r))]
-    parts = [part("bracket", *solids, color="clamp", bundle="bracket")]
-    if foot > -height + 0.05:
-        size, name = num(rng, 0.06, 0.14), pick(rng, "post", "column", "beam", "foundation")
-        if name == "beam":
-            beam = box((size, num(rng, 0.4, 1.2), size), (0, 0, foot - size / 2))
-            parts.append(part("beam", beam, color="steel", group=FRAME))
-            foot -= size
-            name = "post"
-        if foot > -height + 0.02:
-            upright = moved(extrude(rounded_rectangle(size, size, 0.0), -height, foot), at(0, 0))
-            parts.append(part(name, upright, color="steel", group=FRAME))
-    return Model(parts)
-
-
-def _stanchion(dn: int, style: ModelingStyle, rng: np.random.Generator, height: float) -> Model:
-    """An upright cylinder under a line, with or without a plate at its foot."""
-    r = PIPES[dn].radius
-    post = disc(max(0.012, r * num(rng, 0.4, 0.8)), -height, -0.9 * r, style)
-    parts = [part("bracket", post, color="clamp", bundle="bracket")]
-    if chance(rng, 0.6):
-        parts.append(
-            part(
-                "base plate",
-                box((2 * r + 0.06, 2 * r + 0.06, 0.012), (0, 0, -height + 0.006)),
-                color="steel",
-                group=FRAME,
-            )
-        )
-    return Model(parts)
-
-
-def _band(dn: int, style: ModelingStyle, rng: np.random.Generator, height: float, name: str = "clamp") -> Model:
-    """A ring round a line on a post, or under a thin rod from above."""
-    solid, outer = _ring_round(dn, style, rng)
-    parts = [part(name, solid, color="clamp", bundle=name)]
-    if name == "pipe hanger":
-        top = num(rng, 0.4, 1.2)
-        hung = cylinder(max(0.004, 0.08 * outer), 0.98 * outer, top, 8)
-        parts[0] = part(name, solid, hung, color="clamp", bundle=name)
-        size = num(rng, 0.05, 0.12)
-        parts.append(
-            part("beam", box((size, num(rng, 0.3, 1.0), size), (0, 0, top + size / 2)), color="steel", group=FRAME)
-        )
-    elif height > outer + 0.1:
-        size = num(rng, 0.02, 0.06)
-        parts.append(part("post", disc(size, -height, -0.98 * outer, style), color="steel", group=FRAME))
-    return Model(parts)
-
-
-def _bow(dn: int, style: ModelingStyle, rng: np.random.Generator, height: float) -> Model:
-    """A bent bar over a line on a flat or square beam, without nuts, on one or two posts."""
-    r = PIPES[dn].radius
-    d = max(0.004, 0.07 * r)
-    leg, low = r + d, -r - num(rng, 0.03, 0.06)
-    turns = np.linspace(0, np.pi, 9)
-    over = np.column_stack([np.zeros(9), leg * np.cos(turns), leg * np.sin(turns)])
-    path = np.vstack([[(0.0, leg, low)], over, [(0.0, -leg, low)]])
-    parts = [part("u-bolt", torus_piece(path, d, 8), color="clamp", bundle="u-bolt")]
-    size = num(rng, 0.04, 0.1)
-    beam = box((size, 2 * leg + 0.15, size), (0, 0, -r - size / 2))
-    parts.append(part("beam", beam, color="steel", group=FRAME))
-    if height > r + size + 0.05:
-        for y in (-leg, leg) if chance(rng, 0.5) else (0.0,):
-            post = box((size, size, height - r - size), (0, y, (-height - r - size) / 2))
-            parts.append(part("post", post, color="steel", group=FRAME))
-    return Model(parts)
-
-
-_KINDS = ("control panel", "junction box", "sign", "camera")
-_WAYS = {"duct": 2.0, "solid": 2.0, "tray": 1.0, "rungs": 1.0}
-
-
-def _hanging(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class SaggingBar(_Utility, name="cable/sagging bar", label="cable", bundle="cable", weight=0.5):
     """A cable between two points that sags."""
-    length, sag, r = num(rng, 1.0, 4.0), num(rng, 0.02, 0.4), num(rng, 0.004, 0.02)
-    x = np.linspace(0, 1, 9)
-    path = np.column_stack([length * x, np.zeros(9), 2.0 - 4 * sag * x * (1 - x)])
-    hold = rod((0, 0, 0), (0, 0, 2.0), 0.03, 8)
-    cable = torus_piece(path, r, 8)
-    return Model(
-        [part("cable", cable, color="electrical", bundle="cable"), part("post", hold, color="steel", group=FRAME)]
+
+    length: float = between(1.0, 4.0, "between the points", "m")
+    sag: float = between(0.02, 0.4, "in its middle", "m")
+    radius: float = between(0.004, 0.02, "of the cable", "m")
+
+    def build(self, t: Table) -> Model:
+        x = np.linspace(0, 1, 9)
+        path = np.column_stack([self.length * x, np.zeros(9), 2.0 - 4 * self.sag * x * (1 - x)])
+        t.add("cable", torus_piece(path, self.radius, 8), of="electrical")
+        t.add("post", rod((0, 0, 0), (0, 0, 2.0), 0.03, 8))
+        return t.model()
+
+
+# --- boxes, lamps, bottles ---
+
+
+class _Size(Params):
+    """Width, depth and height of a box."""
+
+    wide: float = between(0.1, 1.2, "width", "m")
+    deep: float = between(0.004, 0.6, "depth", "m")
+    high: float = between(0.08, 2.1, "height", "m")
+
+
+# Ranges of width, depth and height [m]; one number where it is always the same.
+_SIZES: dict[str, tuple[tuple[float, ...], ...]] = {
+    "control panel": ((0.4, 1.2), (0.2, 0.6), (0.8, 2.1)),
+    "junction box": ((0.1, 0.3), (0.06, 0.15), (0.1, 0.4)),
+    "sign": ((0.2, 0.6), (0.004,), (0.2, 0.5)),
+    "camera": ((0.1, 0.2), (0.08,), (0.08,)),
+}
+
+
+def _size_of(name: str) -> _Size:
+    def draw(source: Source, _: object) -> _Size:
+        rng = source.rng
+        # A size of each kind, so that all kinds draw as many numbers.
+        drawn = {
+            kind: [span[0] if len(span) == 1 else float(rng.uniform(span[0], span[1])) for span in spans]
+            for kind, spans in _SIZES.items()
+        }
+        return _Size(**dict(zip(("wide", "deep", "high"), drawn[name], strict=True)))
+
+    return nested(draw, "its box")
+
+
+class _Boxed(_Utility, weight=0.6):
+    """A box on the floor or on a post."""
+
+    size: _Size = _size_of("junction box")
+    standing: bool = given(False, "it stands on the floor")
+    low: float = between(0.9, 2.2, "height of its underside", "m", when=lambda p: not p.standing)
+    radius: float = between(0.02, 0.04, "of the post", "m", when=lambda p: p.low)
+    round_: bool = chance(0.5, "the post is round", when=lambda p: p.low)
+
+    def build(self, t: Table) -> Model:
+        low, r, size = self.low, self.radius, (self.size.wide, self.size.deep, self.size.high)
+        solids = [box(size, (0, 0, low + size[2] / 2))]
+        if self.label == "camera":
+            solids.append(lying(disc(0.03, size[0] / 2, size[0] / 2 + 0.04, t.style), 0, 0, low + 0.04))
+        t.add(self.label, *solids, of="electrical")
+        if low:
+            post = cylinder(r, 0, low, min(t.n(r), 16)) if self.round_ else box((2 * r, 2 * r, low), (0, 0, low / 2))
+            t.add("post", post)
+        return t.model()
+
+
+class PanelBox(_Boxed, name="control panel/box", label="control panel", bundle="control panel"):
+    """A control panel as a box on the floor or on a post."""
+
+    size: _Size = _size_of("control panel")
+    standing: bool = chance(0.7, "it stands on the floor")
+
+
+class JunctionBox(_Boxed, name="junction box/box", label="junction box", bundle="junction box"):
+    """A junction box on a post."""
+
+
+class SignBox(_Boxed, name="sign/box", label="sign", bundle="sign"):
+    """A sign on a post."""
+
+    size: _Size = _size_of("sign")
+
+
+class CameraBox(_Boxed, name="camera/box", label="camera", bundle="camera"):
+    """A camera on a post."""
+
+    size: _Size = _size_of("camera")
+
+
+class PoleAndBox(_Utility, name="lamp/pole and box", label="lamp", bundle="lamp", weight=0.6):
+    """A pole with a box, a cone or a ball on it."""
+
+    high: float = between(2.0, 6.0, "height of the pole", "m")
+    radius: float = between(0.03, 0.08, "of the pole", "m")
+    head: str = among(("box", "cone", "ball"), "what is on it")
+
+    def build(self, t: Table) -> Model:
+        high = self.high
+        heads = {
+            "box": box((0.5, 0.2, 0.08), (0.2, 0, high)),
+            "cone": cone(0.1, 0.25, high, high + 0.15, t.style),
+            "ball": moved(ball(0.15, t.n(0.15)), at(0, 0, high)),
+        }
+        t.add("lamp", heads[self.head], of="electrical")
+        t.add("post", disc(self.radius, 0.0, high, t.style))
+        return t.model()
+
+
+class Extinguisher(
+    _Utility, name="fire extinguisher/cylinders", label="fire extinguisher", bundle="fire extinguisher", weight=0.5
+):
+    """A cylinder with a small one on top and a grip: an extinguisher."""
+
+    radius: float = between(0.06, 0.1, "radius", "m")
+    high: float = between(0.35, 0.6, "height", "m")
+
+    def build(self, t: Table) -> Model:
+        r, high = self.radius, self.high
+        grip = box((1.6 * r, 0.02, 0.02), (0.4 * r, 0, high + 0.6 * r))
+        bottle = [disc(r, 0.0, high, t.style), disc(0.4 * r, high, high + 0.6 * r, t.style)]
+        t.add("fire extinguisher", *bottle, grip, of="safety")
+        return t.model()
+
+
+class Hydrant(_Utility, name="hydrant/cylinders", label="hydrant", bundle="hydrant", weight=0.5):
+    """A cylinder with a small one on top and two to the side: a hydrant."""
+
+    radius: float = between(0.06, 0.12, "radius", "m")
+    high: float = between(0.6, 1.1, "height", "m")
+
+    def build(self, t: Table) -> Model:
+        r, high = self.radius, self.high
+        side = moved(disc(0.5 * r, -1.8 * r, 1.8 * r, t.style), at(0, 0, 0.75 * high) @ spun("x", np.pi / 2))
+        upright = [disc(r, 0.0, high, t.style), disc(0.4 * r, high, high + 0.6 * r, t.style)]
+        t.add("hydrant", *upright, side, disc(1.6 * r, 0.0, 0.03, t.style), of="safety")
+        return t.model()
+
+
+# --- what holds a line ---
+
+
+class _Holder(Device, place="carrier", group="Connection assembly", grain="structure"):
+    """What holds a line, of primitives."""
+
+    height: float = given(1.1, "of the line's axis over the floor", "m")
+
+
+def _foot(p: object) -> float:
+    """Height of the underside of a shoe over the line's axis [m]."""
+    return -PIPES[p.dn].radius - p.shoe  # type: ignore[attr-defined, no-any-return]
+
+
+class Shoe(_Holder, name="bracket/plain shoe", label="bracket", bundle="bracket", weight=3):
+    """A plate, a T or a box under a line, on a beam, a post or a block that stands on the ground."""
+
+    length: float = between(0.08, 0.25, "along the line", "m")
+    shoe: float = between(0.05, 0.1, "height of the shoe", "m")
+    boxed: bool = chance(0.3, "a box, not a T")
+    size: float = between(0.06, 0.14, "width of what it is on", "m", when=lambda p: _foot(p) > -p.height + 0.05)
+    under: str = among(
+        ("post", "column", "beam", "foundation"),
+        "what it is on",
+        when=lambda p: _foot(p) > -p.height + 0.05,
+        otherwise="",
     )
+    across: float = between(0.4, 1.2, "length of the beam", "m", when=lambda p: p.under == "beam")
+
+    def build(self, t: Table) -> Model:
+        r, length, shoe, size = t.pipe.radius, self.length, self.shoe, self.size
+        foot, under = -r - shoe, self.under
+        if self.boxed:
+            solids = [box((length, 1.2 * r + 0.02, shoe + 0.15 * r), (0, 0, -r - shoe / 2 + 0.075 * r))]
+        else:
+            web = box((length, 0.008, shoe + 0.1 * r), (0, 0, -r - shoe / 2 + 0.05 * r))
+            solids = [web, box((length, 1.2 * r + 0.04, 0.008), (0, 0, foot + 0.004))]
+        t.add("bracket", *solids, of="clamp")
+        if under == "beam":
+            t.add("beam", box((size, self.across, size), (0, 0, foot - size / 2)))
+            foot, under = foot - size, "post"
+        if under and foot > -self.height + 0.02:
+            t.add(under, extrude(rounded_rectangle(size, size, 0.0), -self.height, foot), of="steel")
+        return t.model()
 
 
-PRIMITIVE_UTILITIES: tuple[Family, ...] = (
-    *(
-        family(
-            f"cable tray/plain {kind}",
-            "floor",
-            _SAFETY,
-            partial(_tray, kind=kind),
-            "cable tray",
-            (15,),
-            weight,
-            "structure",
-        )
-        for kind, weight in _WAYS.items()
-    ),
-    family("conduit/bent bars", "floor", _SAFETY, _conduit, "conduit", (15,), grain="fitting"),
-    family("cable/bent bars", "floor", _SAFETY, partial(_conduit, name="cable"), "cable", (15,), 0.5, "fitting"),
-    family("cable/sagging bar", "floor", _SAFETY, _hanging, "cable", (15,), 0.5, "fitting"),
-    *(
-        family(f"{name}/box", "floor", _SAFETY, partial(_boxed, name=name), name, (15,), 0.6, "fitting")
-        for name in _KINDS
-    ),
-    family("lamp/pole and box", "floor", _SAFETY, _lamp, "lamp", (15,), 0.6, "fitting"),
-    *(
-        family(f"{name}/cylinders", "floor", _SAFETY, partial(_bottle, name=name), name, (15,), 0.5, "fitting")
-        for name in ("fire extinguisher", "hydrant")
-    ),
-    family("bracket/plain shoe", "carrier", _HELD, _shoe, weight=3, grain="structure"),
-    family("bracket/upright cylinder", "carrier", _HELD, _stanchion, weight=1.5, grain="structure"),
-    family("clamp/ring on post", "carrier", _HELD, _band, weight=2, grain="structure"),
-    family("pipe hanger/ring on rod", "carrier", _HELD, partial(_band, name="pipe hanger"), grain="structure"),
-    family("u-bolt/bent bar", "carrier", _HELD, _bow, weight=2, grain="structure"),
+class UprightCylinder(_Holder, name="bracket/upright cylinder", label="bracket", bundle="bracket", weight=1.5):
+    """An upright cylinder under a line, with or without a plate at its foot."""
+
+    radius: float = between(0.4, 0.8, "radius / of the line")
+    plated: bool = chance(0.6, "a plate at its foot")
+
+    def build(self, t: Table) -> Model:
+        r = t.pipe.radius
+        t.add("bracket", disc(max(0.012, r * self.radius), -self.height, -0.9 * r, t.style), of="clamp")
+        if self.plated:
+            t.add("base plate", box((2 * r + 0.06, 2 * r + 0.06, 0.012), (0, 0, -self.height + 0.006)))
+        return t.model()
+
+
+def _outer(dn: int) -> float:
+    """Outer radius of a ring round a line [m]."""
+    inner = PIPES[dn].radius
+    return inner + max(0.004, 0.12 * inner)
+
+
+class _Ring(_Holder):
+    """A ring round a line."""
+
+    half: float = between(0.015, 0.05, "half the width of the ring", "m")
+
+    def ring(self, t: Table) -> Solid:
+        """The ring."""
+        outer = _outer(self.dn)
+        return lying(ring(t.pipe.radius, outer, -self.half, self.half, t.n(outer)))
+
+
+class RingOnPost(_Ring, name="clamp/ring on post", label="clamp", bundle="clamp", weight=2):
+    """A ring round a line on a post."""
+
+    size: float = between(0.02, 0.06, "radius of the post", "m", when=lambda p: p.height > _outer(p.dn) + 0.1)
+
+    def build(self, t: Table) -> Model:
+        t.add("clamp", self.ring(t))
+        if self.size:
+            t.add("post", disc(self.size, -self.height, -0.98 * _outer(self.dn), t.style))
+        return t.model()
+
+
+class RingOnRod(_Ring, name="pipe hanger/ring on rod", label="pipe hanger", bundle="pipe hanger"):
+    """A ring round a line under a thin rod from above."""
+
+    top: float = between(0.4, 1.2, "height of the rod's end over the axis", "m")
+    size: float = between(0.05, 0.12, "width of the beam", "m")
+    across: float = between(0.3, 1.0, "length of the beam", "m")
+
+    def build(self, t: Table) -> Model:
+        outer, top, size = _outer(self.dn), self.top, self.size
+        t.add("pipe hanger", self.ring(t), cylinder(max(0.004, 0.08 * outer), 0.98 * outer, top, 8))
+        t.add("beam", box((size, self.across, size), (0, 0, top + size / 2)))
+        return t.model()
+
+
+class Bow(_Holder, name="u-bolt/bent bar", label="u-bolt", bundle="u-bolt", weight=2):
+    """A bent bar over a line on a flat or square beam, without nuts, on one or two posts."""
+
+    drop: float = between(0.03, 0.06, "how far its ends reach below the line", "m")
+    size: float = between(0.04, 0.1, "width of the beam", "m")
+    two: bool = chance(0.5, "two posts, not one", when=lambda p: p.height > PIPES[p.dn].radius + p.size + 0.05)
+
+    def build(self, t: Table) -> Model:
+        r, size, height = t.pipe.radius, self.size, self.height
+        d = max(0.004, 0.07 * r)
+        leg, low = r + d, -r - self.drop
+        turns = np.linspace(0, np.pi, 9)
+        over = np.column_stack([np.zeros(9), leg * np.cos(turns), leg * np.sin(turns)])
+        path: Floats = np.vstack([[(0.0, leg, low)], over, [(0.0, -leg, low)]])
+        t.add("u-bolt", torus_piece(path, d, 8))
+        t.add("beam", box((size, 2 * leg + 0.15, size), (0, 0, -r - size / 2)))
+        if height > r + size + 0.05:
+            for y in (-leg, leg) if self.two else (0.0,):
+                t.add("post", box((size, size, height - r - size), (0, y, (-height - r - size) / 2)))
+        return t.model()
+
+
+PRIMITIVE_UTILITIES: tuple[Family, ...] = families_of(
+    PlainDuct,
+    PlainSolid,
+    PlainTray,
+    PlainRungs,
+    Conduit,
+    Cable,
+    SaggingBar,
+    PanelBox,
+    JunctionBox,
+    SignBox,
+    CameraBox,
+    PoleAndBox,
+    Extinguisher,
+    Hydrant,
+    Shoe,
+    UprightCylinder,
+    RingOnPost,
+    RingOnRod,
+    Bow,
 )
