@@ -8,7 +8,7 @@ from cadgraph.model.scene import Floats
 from cadplants.families.vessels.exchangers import frame_of
 from cadplants.families.vessels.vessel_fittings import head, head_height, lug, manway, mouth, sides
 from cadplants.families.vessels.vesselbuild import outlet, tank_family
-from cadplants.families.vessels.vesselfeet import bar, ladder
+from cadplants.families.vessels.vesselfeet import bar, ladder_parts
 from cadplants.family import Family, Model, Part, Port, placed
 from cadplants.mesh_ops import Solid, extrude, merge, moved, weld
 from cadplants.mesh_ops import loft as skin
@@ -115,7 +115,7 @@ def _braced(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
         ports += port
     if base + h > 1.5:
         parts += placed(
-            ladder(0.0, 0.0, base + h + 0.6, style, False, 0.12), at(-0.2 * w, -d / 2 - 0.17, 0) @ spun("z", -np.pi / 2)
+            ladder_parts(0.0, 0.0, base + h + 0.6, style, False, 0.12), at(-0.2 * w, -d / 2 - 0.17, 0) @ spun("z", -np.pi / 2)
         )
     return Model(parts, ports=tuple(ports), kind="rectangular tank")
 
@@ -169,7 +169,7 @@ def _sectional(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     some, ports = outlet("plain", 80, at(w / 2 + 0.05, -d / 2 + p / 2, base + 0.5 * p) @ spun("y", np.pi / 2), style)
     gap = 0.15
     parts += placed(
-        ladder(0.0, 0.0, base + h + 0.7, style, False, gap),
+        ladder_parts(0.0, 0.0, base + h + 0.7, style, False, gap),
         at(-w / 2 + p / 2, -d / 2 - gap - 0.02, 0) @ spun("z", -np.pi / 2),
     )
     return Model([*parts, *some], ports=tuple(ports), kind="sectional tank")

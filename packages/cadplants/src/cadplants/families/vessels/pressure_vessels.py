@@ -6,7 +6,7 @@ import numpy as np
 
 from cadplants.families.vessels.vessel_fittings import Drum, head, head_height, lug, manway, mouth, sides, wrapped
 from cadplants.families.vessels.vesselbuild import closed_vessel, outlet, tank_family
-from cadplants.families.vessels.vesselfeet import bar, foot_plate, ladder, legs, saddle
+from cadplants.families.vessels.vesselfeet import bar, foot_plate, ladder_parts, legs, saddle
 from cadplants.family import Family, Model, Part, Port, placed
 from cadplants.mesh_ops import merge, moved
 from cadplants.modeling_style import ModelingStyle
@@ -191,7 +191,7 @@ def _bullet(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     ]
     parts.append(Part(merge(rail), "railing", "safety", "", _FRAME))
     parts += placed(
-        ladder(0.0, 0.0, high + 1.0, style, False, 0.01), at(-0.45 * length - 0.02, side, 0) @ spun("z", np.pi)
+        ladder_parts(0.0, 0.0, high + 1.0, style, False, 0.01), at(-0.45 * length - 0.02, side, 0) @ spun("z", np.pi)
     )
     return Model(parts, ports=tuple(ports), kind="gas tank")
 

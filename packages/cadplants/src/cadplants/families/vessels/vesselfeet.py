@@ -448,12 +448,5 @@ def legs(kind, drum, style, rng):
 
 
 skirt = legs
-_ladder, _ringed_rail = ladder, ringed_rail
-
-
-def ladder(*a):
-    return [Part(_ladder(*a), "ladder", "safety", "", "Structural element")]
-
-
-def ringed_rail(*a):
-    return [Part(_ringed_rail(*a), "railing", "safety", "", "Structural element")]
+def ladder_parts(*a):
+    return [Part(ladder(*a), "ladder", "safety", "", "Structural element")]
