@@ -58,7 +58,7 @@ class KnockOut(_Separator, name="separator/knock-out drum"):
     handhole: Manway = nested(MANWAYS["oval"], "handhole", when=lambda p: p.radius > 0.3)
 
     def build(self, t: Table) -> Model:
-        r, n, deep, height = self.radius, sides(t.style, self.radius), head_height("2:1", self.radius), 0.0
+        r, n, deep = self.radius, sides(t.style, self.radius), head_height("2:1", self.radius)
         low, height = deep + 0.35 + 0.3 * r, r * self.slender
         drum, cap = Drum(r, low, low + height, n), head("2:1", r, t.style, n)
         heads = moved(cap, at(0, 0, drum.high)), moved(cap, at(0, 0, low) @ spun("x", np.pi))
@@ -199,8 +199,8 @@ class DiscStack(_Separator, name="separator/disc stack"):
         mid, wide = low + 1.9 * r, 1.2 * r
         frame = outline(1.05 * r, low, 1.1 * r, low + 0.1, 0.95 * r, low + 0.5 * r, r, mid - 0.3 * r)
         frame += outline(wide, mid - 0.25 * r, wide, mid)
-        hood = outline(1.2, 0, 1.1, 0.3, 0.7, 0.75, 0.3, 0.9, 0.3, 1.25, 0.18, 1.3)
-        hood = [(wide, mid), (wide, mid + 0.04), *((x * r, mid + z * r) for x, z in hood[1:])]
+        hood = outline(1.1, 0.3, 0.7, 0.75, 0.3, 0.9, 0.3, 1.25, 0.18, 1.3)
+        hood = [(wide, mid), (wide, mid + 0.04), *((x * r, mid + z * r) for x, z in hood)]
         t.add(_NAME, turned(frame, n), of="valve")
         t.add(_NAME, turned(hood, n), of="trim")
         claw = merge([box((0.06, 0.05, 0.1)), rod((0.02, 0, -0.05), (0.02, 0, 0.12), 0.01, 8)])
