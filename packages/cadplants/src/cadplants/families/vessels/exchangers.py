@@ -322,10 +322,3 @@ class DryCooler(_Exchanger, name="heat exchanger/dry cooler"):
 
 
 EXCHANGERS = families_of(Kettle, UTube, DoublePipe, Spiral, LongPlate, DryCooler)
-
-
-# TEMP
-def equipment_family(name, build, weight=0.8):
-    from cadplants.family import Family
-
-    return Family(name, "floor", "Equipment", name.split("/")[0], build, (15,), weight=weight)

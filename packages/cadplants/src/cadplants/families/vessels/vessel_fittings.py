@@ -412,8 +412,3 @@ def lug(kind: str, size: float, style: ModelingStyle, r: float = 0.0, dip: float
         cheek = along("y", merge(rings), -0.2 * s, 0, 0.72 * s)
         return [Part(merge([plate, sheet, cheek]), name, "tank")]
     return [Part(plate, name, "tank")]
-
-
-# TEMP
-def manway(kind, size, style, rng, r=0.0, dip=0.0):
-    return MANWAYS[kind].draw(rng).parts(style, size, r, dip)

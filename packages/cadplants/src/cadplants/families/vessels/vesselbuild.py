@@ -405,22 +405,3 @@ VESSEL_BUILDS = families_of(
     _of(_WithLugs, "lifting lug/bent bar", lug="ring"),
     _of(_Lying, "lifting lug/cheeks and pin", lug="cheeks"),
 )
-
-
-# TEMP
-def outlet(kind, dn, pose, style, r=0.0, dip=0.0, spare=0.04):
-    t = Table(style, "Tank")
-    ports = branch(t, kind, dn, pose, r, dip, spare)
-    return t.parts, ports
-
-
-def closed_vessel(drum, bottom, top, style):
-    t = Table(style, "Tank", "tank")
-    put_vessel(t, drum, bottom, top)
-    return t.parts
-
-
-def tank_family(name, build, weight=0.7):
-    from cadplants.family import Family
-
-    return Family(name, "floor", "Tank", "tank", build, (15,), weight=weight)

@@ -436,17 +436,3 @@ def ringed_rail(r: float, low: float, n: int) -> Solid:
     count = max(6, int(2 * np.pi * r / 1.5))
     posts = around(rod((0, 0, low - 0.03), (0, 0, low + 1.1), 0.02, 8), count, r * np.cos(np.pi / n))
     return merge([*rails, posts])
-
-
-# TEMP
-def saddle(kind, r, axis, style, rng):
-    return SADDLES[kind].draw(rng).parts(r, axis, style)
-
-
-def legs(kind, drum, style, rng):
-    return FEET[kind].draw(rng, {"clear": drum.low}).parts(drum, style)
-
-
-skirt = legs
-def ladder_parts(*a):
-    return [Part(ladder(*a), "ladder", "safety", "", "Structural element")]
