@@ -151,9 +151,9 @@ class Buffer(Tank, name="tank/insulated buffer"):
     flat: bool = chance(0.6, "its lid is flat, not domed")
     dark: bool = chance(0.5, "its lid is of dark plastic")
     side: float = among((0.0, np.pi), "where its connections are", "rad")
-    rows: int = whole(3, 5, "heights with connections")
+    levels: int = whole(3, 5, "heights with connections")
     columns: tuple[int, ...] = several(
-        lambda rng, _: int(rng.integers(1, 3)), lambda p: p.rows, "connections on each height"
+        lambda rng, _: int(rng.integers(1, 3)), lambda p: p.levels, "connections on each height"
     )
     hatched: bool = chance(0.6, "a hatch")
     dials: int = whole(0, 2, "thermometers")
@@ -168,7 +168,7 @@ class Buffer(Tank, name="tank/insulated buffer"):
         t.at(0, 0, drum.high).add("dished head", lid, of="rubber" if self.dark else "dial")
         t.spun("z", 2.4).add("shell", box((0.012, 0.06, tall), (r + 0.004, 0, foot + tall / 2)), of="electrical")
         stub = [cylinder(0.021, -0.05, 0.06, 12), ring(0.021, 0.045, -drum.dip, 0.006, 16)]
-        for z, count in zip(np.linspace(0.15, 0.9, self.rows) * tall + foot, self.columns, strict=True):
+        for z, count in zip(np.linspace(0.15, 0.9, self.levels) * tall + foot, self.columns, strict=True):
             for a in (self.side, self.side + 0.5)[:count]:
                 apart(t.moved(drum.side(a, float(z))), "nozzle", *stub, of="trim")
         if self.hatched:
@@ -190,7 +190,7 @@ class Bottles(Tank, name="tank/gas bottles", weight=0.8):
         ((0.115, 1.6), (0.102, 1.0), (0.07, 0.9), (0.15, 0.6)), "radius and height of a bottle", "m"
     )
     count: int = whole(1, 5, "bottles in a row")
-    rows: int = among((1, 1, 2), "rows")
+    ranks: int = among((1, 1, 2), "bottles one behind the other")
     gap: float = between(0.02, 0.12, "between bottles", "m")
     capped: bool = chance(0.4, "caps on the valves")
     base: float = among((0.0, 0.06), "thickness of the plate below", "m")
@@ -198,10 +198,10 @@ class Bottles(Tank, name="tank/gas bottles", weight=0.8):
     def build(self, t: Table) -> Model:
         (r, tall), base = self.bottle, self.base
         pitch, side = 2 * r + self.gap, 0.04
-        for row in range(self.rows):
+        for row in range(self.ranks):
             for x in (np.arange(self.count) - (self.count - 1) / 2) * pitch:
                 self._bottle(t.at(x, -row * pitch, base).spun("z", -np.pi / 2))
-        w, deep = self.count * pitch + 0.1, (self.rows - 1) * pitch
+        w, deep = self.count * pitch + 0.1, (self.ranks - 1) * pitch
         if base:
             t.add("skid frame", box((w, deep + pitch + 0.1, base), (0, -deep / 2, base / 2)))
         for s in _BOTH:

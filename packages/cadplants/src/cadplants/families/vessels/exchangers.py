@@ -148,13 +148,13 @@ class DoublePipe(_Exchanger, name="heat exchanger/double-pipe"):
     pipes: tuple[int, int] = among(
         ((80, 50), (65, 40), (50, 25), (100, 65)), "nominal sizes of the outer and inner pipe", "mm"
     )
-    rows: int = among((2, 2, 4, 6), "pipes above each other")
+    tiers: int = among((2, 2, 4, 6), "pipes above each other")
     length: float = between(1.4, 3.2, "of the jackets", "m")
     base: float = between(0.3, 0.6, "height of the lowest pipe", "m")
 
     def build(self, t: Table) -> Model:
         ro, ri = (PIPES[dn].radius for dn in self.pipes)
-        rows, half, inner = self.rows, self.length / 2, self.pipes[1]
+        rows, half, inner = self.tiers, self.length / 2, self.pipes[1]
         pitch, n = max(4.4 * ri, 2.6 * ro), t.n(ro)
         zs = self.base + pitch * np.arange(rows)
         near = turned(outline(ri, -half - 0.5 * ro, ro, -half), n)

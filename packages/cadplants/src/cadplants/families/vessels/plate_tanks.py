@@ -130,7 +130,7 @@ class Sectional(Tank, name="tank/sectional panels", weight=0.7):
 
     across: int = whole(2, 4, "panels along its length")
     deep: int = whole(1, 3, "panels along its depth")
-    rows: int = whole(1, 2, "rows of panels")
+    tiers: int = whole(1, 2, "rows of panels")
     side: float = among(lambda p: (0.5, 1.0) if p.across + p.deep > 5 else (1.0,), "side of a panel", "m")
     smaller: bool = chance(0.4, "its panels' sides are at most 0.75 m")
     base: float = between(0.35, 0.6, "height of its floor", "m")
@@ -139,12 +139,12 @@ class Sectional(Tank, name="tank/sectional panels", weight=0.7):
 
     def build(self, t: Table) -> Model:
         p, base = min(self.side, 0.75) if self.smaller else self.side, self.base
-        w, d, h = self.across * p, self.deep * p, self.rows * p
+        w, d, h = self.across * p, self.deep * p, self.tiers * p
         xs, ys = (-w / 2 + (np.arange(self.across) + 0.5) * p), (-d / 2 + (np.arange(self.deep) + 0.5) * p)
         loops = ((1, 0.0), (1, 0.012), (0.9, 0.014), (0.6, 0.05), (0.2, 0.055))
         panel, half = moved(lofted([_loop(f * p, f * p, z) for f, z in loops]), spun("x", np.pi / 2)), np.pi / 2
         walls = []
-        for z in base + (np.arange(self.rows) + 0.5) * p:
+        for z in base + (np.arange(self.tiers) + 0.5) * p:
             for x in xs:
                 walls += [moved(panel, at(x, -d / 2, z)), moved(panel, at(x, d / 2, z) @ spun("z", np.pi))]
             for y in ys:

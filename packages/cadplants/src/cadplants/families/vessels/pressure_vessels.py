@@ -284,9 +284,9 @@ class Cryogenic(Tank, name="tank/cryogenic", weight=0.7):
         put_vessel(t, drum, _DISHED, _DISHED)
         leg = wrapped(0.97 * r, -wide / r / 2, wide / r, 0.012, low + 0.2 * r, 0.03 * r + drum.dip, t.style)
         for k in range(3):
-            turned_ = t.spun("z", 2.0944 * k + 0.5)
-            apart(turned_, "tank leg", leg, of="tank")
-            turned_.add("base plate", box((0.25, wide, 0.012), (r, 0, 0.006)))
+            under = t.spun("z", 2.0944 * k + 0.5)
+            apart(under, "tank leg", leg, of="tank")
+            under.add("base plate", box((0.25, wide, 0.012), (r, 0, 0.006)))
         for k in range(4):
             path = [(x, 0, self.clear + 0.3 * r), (x, 0, 0.45), (1.25 * r, 0, 0.45), (1.25 * r, 0, 0.6 + 0.1 * k)]
             t.at(0, (k - 1.5) * 0.22 * r).add("pipe", rope(path, 0.017, 8))

@@ -116,7 +116,7 @@ class FinnedTube(_Radiator, name="radiator/finned tube"):
     """Finned tubes as heaters of halls: one to four rows with round or square fins, return bends, on wall brackets."""
 
     length: float = between(1.0, 3.0, "of the tubes", "m")
-    rows: int = whole(1, 4, "tubes above each other")
+    tube_rows: int = whole(1, 4, "tubes above each other")
     tube: float = among((0.017, 0.024, 0.03), "radius of the tubes", "m")
     fin: float = between(0.045, 0.075, "radius of the fins", "m")
     low: float = between(0.25, 0.5, "height of the lowest tube", "m")
@@ -125,7 +125,7 @@ class FinnedTube(_Radiator, name="radiator/finned tube"):
     def build(self, t: Table) -> Model:
         r, fin, half, n = self.tube, self.fin, self.length / 2, t.n(self.tube)
         pitch, end, wall = 2.5 * fin, half + 0.02, fin + 0.05
-        zs = self.low + pitch * np.arange(self.rows)
+        zs = self.low + pitch * np.arange(self.tube_rows)
         disc = along("x", cylinder(fin, -0.001, 0.001, t.n(fin, 0, 16)))
         one = box((0.0015, 1.9 * fin, 1.9 * fin)) if self.square else disc
         xs = np.linspace(-0.92, 0.92, int(np.clip(self.length / 0.02, 30, 90))) * half
@@ -182,7 +182,7 @@ class Plinth(_Radiator, name="radiator/plinth", weight=0.8):
     """A skirting or bench radiator: long flat or round tubes on edge, on consoles, maybe a grille."""
 
     width: float = between(0.8, 2.4, "of the tubes", "m")
-    rows: int = among((1, 2, 3), "tubes above each other")
+    tube_rows: int = among((1, 2, 3), "tubes above each other")
     columns: int = whole(2, 4, "tubes behind each other")
     flat: bool = chance(0.6, "its tubes are flat, not round")
     joined: bool = chance(0.6, "the tubes are one mesh")
@@ -191,8 +191,11 @@ class Plinth(_Radiator, name="radiator/plinth", weight=0.8):
 
     def build(self, t: Table) -> Model:
         w, gap, low, z0 = self.width, 0.035, 0.1, 0.14
-        tall, deep = self.rows * 0.075, (self.columns - 1) * gap
-        middle, spots = deep / 2, [(j * gap, z0 + i * 0.075) for i in range(self.rows) for j in range(self.columns)]
+        tall, deep = self.tube_rows * 0.075, (self.columns - 1) * gap
+        middle, spots = (
+            deep / 2,
+            [(j * gap, z0 + i * 0.075) for i in range(self.tube_rows) for j in range(self.columns)],
+        )
         flat, tube = box((w, 0.011, 0.07)), rod((-w / 2, 0, 0), (w / 2, 0, 0), 0.0125, 10)
         tubes = [moved(flat if self.flat else tube, at(0, y, z)) for y, z in spots]
         for solid in [merge(tubes)] if self.joined else tubes:
@@ -222,11 +225,11 @@ class DuctCoil(_Exchanger, name="heat exchanger/duct coil"):
 
     width: float = between(0.5, 1.4, "of the frame", "m")
     height: float = between(0.4, 1.0, "of the frame", "m")
-    rows: int = among((2, 3, 4, 6), "rows of tubes")
+    tube_rows: int = among((2, 3, 4, 6), "rows of tubes")
     low: float = between(0.08, 0.4, "from the floor to the frame", "m")
 
     def build(self, t: Table) -> Model:
-        w, h, rows, low = self.width, self.height, self.rows, self.low
+        w, h, rows, low = self.width, self.height, self.tube_rows, self.low
         deep, r, x = 0.05 + 0.033 * rows, 0.017 + 0.01 * h, -w / 2 - 0.05
         frame = [box((w, deep, 0.003), (0, 0, low + z)) for z in (0.0, h)]
         frame += [box((0.003, deep, h), (s * w / 2, 0, low + h / 2)) for s in _BOTH]

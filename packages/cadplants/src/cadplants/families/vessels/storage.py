@@ -144,8 +144,8 @@ class _Girders(Params):
             if self.section == "flat":
                 solid = ring(drum.r - drum.dip, r, z - 0.012, z, drum.n)
             elif self.section == "angle":
-                inner, web, edge = (drum.r, z - 0.01), (r, z - 0.01), (r + 0.01, z - wide)
-                corners = [inner, web, (r, z - wide), edge, (r + 0.01, z), (drum.r, z)]
+                low, out = z - wide, r + 0.01
+                corners = outline(drum.r, z - 0.01, r, z - 0.01, r, low, out, low, out, z, drum.r, z)
                 solid = weld([revolve(corners, drum.n, closed=True)])
             else:
                 solid = moved(torus(drum.r + 0.01, 0.025, drum.n, 8), at(0, 0, z - 0.02))

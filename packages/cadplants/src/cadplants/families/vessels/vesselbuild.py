@@ -149,7 +149,11 @@ class _WithManway(_Upright):
 
     def finish(self, t: Table, drum: Drum, apex: float) -> None:
         pose = drum.side(5.0, drum.low + (drum.high - drum.low) * self.height)
-        t.moved(pose).extend(self.manway.parts(t.style, min(self.opening, 0.3), drum.r, drum.dip))
+        t.moved(pose).extend(self.manway.parts(t.style, self.neck(), drum.r, drum.dip))
+
+    def neck(self) -> float:
+        """Radius of its neck [m]."""
+        return self.opening
 
 
 class HingedManway(_WithManway, name="manway/hinged"):
@@ -162,9 +166,8 @@ class OvalManway(_WithManway, name="manway/oval"):
     opening: float = between(0.42, 0.6, "radius of the inspection opening, at most 0.16 m / of the shell")
     manway: Manway = nested(MANWAYS["oval"], "inspection opening")
 
-    def finish(self, t: Table, drum: Drum, apex: float) -> None:
-        pose = drum.side(5.0, drum.low + (drum.high - drum.low) * self.height)
-        t.moved(pose).extend(self.manway.parts(t.style, min(self.opening * drum.r, 0.16), drum.r, drum.dip))
+    def neck(self) -> float:
+        return min(self.opening * self.radius, 0.16)
 
 
 class _WithLugs(_Upright):
@@ -212,7 +215,7 @@ class _Lying(Tank, weight=0.7):
     """A lying vessel on two or three saddles of one build, with nozzles and maybe a manway on top."""
 
     rest: str = among(("ribbed",), "how its saddles are built")
-    man: str = among(("none",), "what closes its manway")
+    closure: str = among(("none",), "what closes its manway")
     lug: str = among(("none",), "how its lifting lugs are built")
     radius: float = spread(0.2, 1.15, "of the shell", "m")
     slender: float = between(2.2, 6.0, "length of the shell, at most 4.5 m / its radius")
@@ -222,11 +225,11 @@ class _Lying(Tank, weight=0.7):
     third: bool = chance(0.3, "a third saddle", when=lambda p: _length(p) > 4.8 * p.radius)
     saddle: Saddle = nested(lambda s, p: SADDLES[p.rest].draw(s), "each saddle")
     count: int = whole(2, 4, "nozzles and manways on top")
-    opening: float = between(0.22, 0.3, "radius of the manway's neck", "m", when=lambda p: p.man != "none")
-    manway: Manway = nested(lambda s, p: MANWAYS[p.man].draw(s), "manway", when=lambda p: p.man != "none")
+    opening: float = between(0.22, 0.3, "radius of the manway's neck", "m", when=lambda p: p.closure != "none")
+    manway: Manway = nested(lambda s, p: MANWAYS[p.closure].draw(s), "manway", when=lambda p: p.closure != "none")
     nozzles: tuple[_TopNozzle, ...] = several(
         lambda rng, p: _TopNozzle.draw(rng, {"room": 0.8 * p.radius}),
-        lambda p: p.count - (p.man != "none"),
+        lambda p: p.count - (p.closure != "none"),
         "nozzles on top",
     )
     ended: bool = chance(0.5, "a nozzle at one end")
@@ -244,7 +247,7 @@ class _Lying(Tank, weight=0.7):
         for x in np.linspace(-0.3, 0.3, 3 if self.third else 2) * length:
             t.at(x).extend(saddle)
         spots = [lay @ drum.side(np.pi, z) for z in np.linspace(0.15, 0.85, self.count) * length]
-        if self.man != "none":
+        if self.closure != "none":
             size = min(0.5 * r, self.opening)
             t.moved(spots.pop(1)).extend(self.manway.parts(t.style, size, r, drum.dip))
         ports: list[Port] = []
@@ -383,8 +386,8 @@ VESSEL_BUILDS = families_of(
     _of(_Upright, "nozzle/tank fitting", form="fitting"),
     Hygienic,
     HingedManway,
-    _of(_LyingWithManway, "manway/davit", man="davit"),
-    _of(_LyingWithManway, "manway/swing bolts", man="swing"),
+    _of(_LyingWithManway, "manway/davit", closure="davit"),
+    _of(_LyingWithManway, "manway/swing bolts", closure="swing"),
     OvalManway,
     _of(_Lying, "saddle/ribbed", 0.8, rest="ribbed"),
     _of(_LyingLow, "saddle/block", rest="block"),
