@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import ClassVar
 
 import numpy as np
 
@@ -264,9 +263,6 @@ class ChairedSkirt(Feet):
 
 class _Legs(Feet):
     """Legs all round a drum (DIN 28081)."""
-
-    plated: ClassVar[float] = 0.6
-    """How far out of the drum the middle of a foot's plate is / side of a leg; 0: without plates."""
 
     count: int = among((3, 4), "legs")
 
