@@ -29,9 +29,7 @@ class _Boiler(Device, place="floor", group="Equipment", label="boiler", bundle="
         """Flanged mouths on a drum of radius ``r``, each with its frame and nominal size; their ports."""
         ports: list[Port] = []
         for pose, dn in spots:
-            parts, port = equipment_mouth("boiler", dn, pose, t.style, r, dip)
-            t.extend(parts)
-            ports += port
+            ports += equipment_mouth(t, dn, pose, r, dip)
         return ports
 
 

@@ -137,9 +137,7 @@ class Press(_Filter, name="filter/press", weight=0.8):
         ports: list[Port] = []
         dn = 25 if FLANGES[40].outer > 0.4 * w else 40
         for aside in (0.0, 0.3 * w):
-            parts, port = equipment_mouth("filter", dn, at(0, aside, z + aside) @ spun("y", -np.pi / 2), t.style)
-            t.extend(parts)
-            ports += port
+            ports += equipment_mouth(t, dn, at(0, aside, z + aside) @ spun("y", -np.pi / 2))
         return t.model(kind="filter press", ports=ports)
 
     def _plate(self, x: float) -> Solid:

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import dataclasses
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from cadgraph.model.scene import Floats
+from cadplants.builder.params import Field, Params, among, between, chance
+from cadplants.builder.table import Table, outline
 from cadplants.families.valves.valve import bolt_circle, disc_flange
 from cadplants.families.vessels.vessel import head_profile
 from cadplants.family import Part
@@ -20,22 +24,40 @@ from cadplants.standards import FLANGES, PIPES
 from cadplants.transforms import at, spun
 
 __all__ = [
-    "Drum",
-    "bent",
-    "capped",
-    "fall",
-    "head",
-    "head_height",
-    "lug",
-    "manway",
-    "mouth",
-    "mouth_reach",
-    "renamed",
-    "sides",
-    "wrapped",
-]
+    "MANWAYS", "Drum", "Manway", "bent", "capped", "fall", "handle", "head", "head_height", "lug", "mouth",
+    "mouth_reach", "renamed", "sides", "spread", "wrapped",
+]  # fmt: skip
 
 _JOINT = "Connection assembly"
+
+
+def spread(low: float, high: float, about: str, unit: str = "", *, most: float = np.inf, scale: float = 1.0) -> float:
+    """A parameter that is drawn with an evenly spread logarithm, so that small ones are as usual as large ones.
+
+    Args:
+        low: the least that is drawn.
+        high: the most that is drawn.
+        about: what it means: a noun phrase.
+        unit: of it.
+        most: what is drawn above becomes this.
+        scale: what the result is then multiplied by.
+    """
+    least, largest = scale * min(low, most), scale * min(high, most)
+
+    def sample(source: Any, _: Any) -> float:
+        return scale * min(float(np.exp(source.rng.uniform(np.log(low), np.log(high)))), most)
+
+    def accept(value: Any, _: Any) -> float:
+        if not least <= float(value) <= largest:
+            raise ValueError(f"give {least:g} to {largest:g}")
+        return float(value)
+
+    return dataclasses.field(metadata={"spec": Field(about, unit, f"{least:g} to {largest:g}", sample, accept)})  # type: ignore[no-any-return]
+
+
+def handle(x: float, half: float, low: float, high: float, radius: float, sides: int) -> Solid:
+    """A bent handle across the plane x, its ends on a height ``low`` [m]."""
+    return rope([(x, -half, low), (x, -half, high), (x, half, high), (x, half, low)], radius, sides)
 
 
 def sides(style: ModelingStyle, radius: float) -> int:
@@ -157,9 +179,8 @@ def mouth(kind: str, dn: int, reach: float, style: ModelingStyle, r: float = 0.0
     if kind == "half":
         return [Part(ring(0.7 * radius, 1.35 * radius, low, 0.015 + 0.8 * radius, n), name, "trim")]
     if kind == "ferrule":
-        outline = [(radius, low), (radius, 0.6 * reach), (1.5 * radius, 0.6 * reach + 0.5 * radius)]
-        body = turned([*outline, (1.5 * radius, 0.6 * reach + 0.5 * radius + 0.004)], n)
-        return [Part(body, name, "trim")]
+        wide, top = 1.5 * radius, 0.6 * reach + 0.5 * radius
+        return [Part(turned(outline(radius, low, radius, 0.6 * reach, wide, top, wide, top + 0.004), n), name, "trim")]
     if kind == "fitting":
         nut = hexagon(3.4 * radius, 0.0, 0.35 * radius + 0.008)
         collar = cylinder(2.1 * radius, low, 0.006, n)
@@ -201,150 +222,153 @@ def _gooseneck(radius: float, bore: float, low: float, reach: float, style: Mode
 # --- manways ---
 
 
-def manway(
-    kind: str, size: float, style: ModelingStyle, rng: np.random.Generator, r: float = 0.0, dip: float = 0.0
-) -> list[Part]:
-    """A manway about z (after API 650, or makers): ``hinged``, ``davit``, ``swing``, ``hatch``, ``oval``, ``lid``.
+class Manway(Params):
+    """The closure of a manway about z (after API 650, or makers)."""
 
-    Args:
-        kind: its closure; ``swing`` has swing bolts round a dished lid, ``lid`` is a screwed or clamped plastic lid.
-        size: radius of its neck [m].
-        style: that models it.
-        rng: of its proportions.
-        r: radius of the shell it sits on [m], 0 where that is flat.
-        dip: how far the shell's flats lie inside its circle [m].
-    """
-    low = -dip - fall(r, 1.15 * size) - 0.015
-    if kind == "hatch":
-        return _hatch(size, low, rng)
-    if kind == "oval":
-        return _oval(size, low, style)
-    if kind == "lid":
-        return _screw_lid(size, low, style, rng)
-    if kind == "swing":
-        return _swing(size, low, style, rng)
-    n, name = style.round(size), "manway"
-    tall, thick, wide = float(rng.uniform(0.10, 0.25)), 0.012 + 0.05 * size, 1.25 * size + 0.02
-    neck = ring(0.96 * size if style.hollow else 0.0, size, low, tall, n)
-    rim = ring(0.96 * size, wide, tall - thick, tall, n)
-    top = tall + thick
-    lid = dome(wide, 0.25 * size, top, n) if rng.random() < 0.25 else cylinder(wide, tall, top, n)
-    if lid.vertices[:, 2].min() > tall:
-        lid = merge([lid, cylinder(wide, tall, top, n)])
-    count = int(rng.choice([12, 16, 20]))
-    bolts = bolt_circle(count, 0.5 * (size + wide), 0.016, tall - thick, top)
-    parts = [Part(neck, name, "tank", name), Part(rim, name, "flange", name), Part(lid, name, "tank", name)]
-    parts.append(Part(bolts, "bolt", "fastener", name, _JOINT, True))
-    if rng.random() < 0.5:
-        parts.append(Part(bent(ring(size, 1.7 * size, -dip - 0.004, 0.008, n), r), name, "tank", name))
-    arm = _davit(wide, tall, top, style) if kind == "davit" else _hinge(wide, tall, top)
-    return [*parts, Part(arm, name, "steel", name)]
+    def parts(self, style: ModelingStyle, size: float, r: float = 0.0, dip: float = 0.0) -> list[Part]:
+        """The manway with its neck.
+
+        Args:
+            style: that models it.
+            size: radius of its neck [m].
+            r: radius of the shell it sits on [m], 0 where that is flat.
+            dip: how far the shell's flats lie inside its circle [m].
+        """
+        t = Table(style, "Tank", "manway")
+        self.build(t, size, -dip - fall(r, 1.15 * size) - 0.015, r, dip)
+        return t.parts
+
+    def build(self, t: Table, size: float, low: float, r: float, dip: float) -> None:
+        """Puts it down, its neck from a height ``low``; the rest as in ``parts`` [m]."""
+        raise NotImplementedError(type(self).__name__)
 
 
-def _davit(wide: float, tall: float, top: float, style: ModelingStyle) -> Solid:
-    """A post in a sleeve beside the flange with an arm over the lid and a hook bolt."""
-    x = wide + 0.03
-    path = [(x, 0, tall - 0.12), (x, 0, top + 0.16), (0.85 * x, 0, top + 0.2), (0.0, 0, top + 0.2)]
-    sleeve = moved(cylinder(0.03, tall - 0.1, tall - 0.01, 10), at(x))
-    web = box((0.06, 0.012, 0.07), (wide + 0.005, 0, tall - 0.055))
-    return merge(
-        [rope(path, 0.018, min(12, style.round(0.018))), sleeve, web, rod((0, 0, top), (0, 0, top + 0.2), 0.01, 8)]
-    )
+class _Bolted(Manway):
+    """A cover bolted on a flange."""
+
+    tall: float = between(0.10, 0.25, "height of its neck", "m")
+    domed: bool = chance(0.25, "its cover is domed")
+    bolts: int = among((12, 16, 20), "bolts")
+    padded: bool = chance(0.5, "a reinforcing pad round its neck")
+
+    def build(self, t: Table, size: float, low: float, r: float, dip: float) -> None:
+        n, tall, wide, thick = t.n(size), self.tall, 1.25 * size + 0.02, 0.012 + 0.05 * size
+        top = tall + thick
+        t.add("manway", ring(0.96 * size if t.style.hollow else 0.0, size, low, tall, n))
+        t.add("manway", ring(0.96 * size, wide, tall - thick, tall, n), of="flange")
+        lid = [dome(wide, 0.25 * size, top, n)] if self.domed else []
+        t.add("manway", *lid, cylinder(wide, tall, top, n))
+        t.add("bolt", bolt_circle(self.bolts, 0.5 * (size + wide), 0.016, tall - thick, top))
+        if self.padded:
+            t.add("manway", bent(ring(size, 1.7 * size, -dip - 0.004, 0.008, n), r))
+        t.add("manway", self.arm(t.style, wide, tall, top), of="steel")
+
+    def arm(self, style: ModelingStyle, wide: float, tall: float, top: float) -> Solid:
+        """What holds the cover of a radius between two heights when it is opened [m]."""
+        raise NotImplementedError(type(self).__name__)
 
 
-def _hinge(wide: float, tall: float, top: float) -> Solid:
-    """Two leaves and a pin at the edge, a handle across."""
-    leaves = [box((0.12, 0.015, top - tall + 0.06), (wide + 0.02, y, (top + tall) / 2)) for y in (-0.06, 0.06)]
-    pin = along("y", cylinder(0.012, -0.1, 0.1, 8), wide + 0.06, 0, (top + tall) / 2)
-    grip = [(-0.7 * wide, -0.08, top - 0.005), (-0.7 * wide, -0.08, top + 0.06)]
-    grip += [(-0.7 * wide, 0.08, top + 0.06), (-0.7 * wide, 0.08, top - 0.005)]
-    return merge([*leaves, pin, rope(grip, 0.009, 8)])
+class Davit(_Bolted):
+    """A manway with a post in a sleeve beside the flange, an arm over the cover and a hook bolt."""
+
+    kind = "davit"
+
+    def arm(self, style: ModelingStyle, wide: float, tall: float, top: float) -> Solid:
+        x = wide + 0.03
+        path = [(x, 0, tall - 0.12), (x, 0, top + 0.16), (0.85 * x, 0, top + 0.2), (0.0, 0, top + 0.2)]
+        post = rope(path, 0.018, min(12, style.round(0.018)))
+        sleeve = moved(cylinder(0.03, tall - 0.1, tall - 0.01, 10), at(x))
+        web = box((0.06, 0.012, 0.07), (wide + 0.005, 0, tall - 0.055))
+        return merge([post, sleeve, web, rod((0, 0, top), (0, 0, top + 0.2), 0.01, 8)])
 
 
-def _swing(size: float, low: float, style: ModelingStyle, rng: np.random.Generator) -> list[Part]:
+class Hinged(_Bolted):
+    """A manway with two leaves and a pin at the edge, a handle across."""
+
+    kind = "hinged"
+
+    def arm(self, style: ModelingStyle, wide: float, tall: float, top: float) -> Solid:
+        leaves = [box((0.12, 0.015, top - tall + 0.06), (wide + 0.02, y, (top + tall) / 2)) for y in (-0.06, 0.06)]
+        pin = along("y", cylinder(0.012, -0.1, 0.1, 8), wide + 0.06, 0, (top + tall) / 2)
+        return merge([*leaves, pin, handle(-0.7 * wide, 0.08, top - 0.005, top + 0.06, 0.009, 8)])
+
+
+class Swing(Manway):
     """A quick-opening manway: a dished lid under swing bolts with wing nuts in slotted ears."""
-    n, tall, name = style.round(size), float(rng.uniform(0.06, 0.16)), "manway"
-    neck = turned([(size, low), (size, tall - 0.02), (1.08 * size, tall - 0.02), (1.08 * size, tall)], n)
-    lid = turned(
-        [
-            (1.1 * size, tall),
-            (1.1 * size, tall + 0.015),
-            (0.9 * size, tall + 0.02),
-            (0.5 * size, tall + 0.2 * size),
-            (0.0, tall + 0.25 * size),
-        ],
-        n,
-    )
-    ear = merge([box((0.05, 0.012, 0.03), (0.02, y, tall - 0.035)) for y in (-0.014, 0.014)])
-    slot = merge([box((0.045, 0.012, 0.018), (0.02, y, tall + 0.009)) for y in (-0.014, 0.014)])
-    count = int(rng.choice([4, 6, 8]))
-    bolt = merge(
-        [
-            rod((0.03, 0, tall - 0.05), (0.03, 0, tall + 0.07), 0.007, 8),
-            box((0.014, 0.09, 0.014), (0.03, 0, tall + 0.03)),
-        ]
-    )
-    hinge = box((0.08, 0.05, 0.05), (1.1 * size + 0.03, 0, tall))
-    return [
-        Part(merge([neck, around(ear, count, 1.06 * size, 0.4)]), name, "tank", name),
-        Part(merge([lid, around(slot, count, 1.06 * size, 0.4), hinge]), name, "trim", name),
-        Part(around(bolt, count, 1.06 * size, 0.4), "bolt", "fastener", name, _JOINT, True),
-    ]
+
+    kind = "swing"
+
+    tall: float = between(0.06, 0.16, "height of its neck", "m")
+    bolts: int = among((4, 6, 8), "swing bolts")
+
+    def build(self, t: Table, size: float, low: float, r: float, dip: float) -> None:
+        n, z, rim = t.n(size), self.tall, 1.08 * size
+        neck = turned(outline(size, low, size, z - 0.02, rim, z - 0.02, rim, z), n)
+        lid = outline(1.1 * size, z, 1.1 * size, z + 0.015, 0.9 * size, z + 0.02, 0.5 * size, z + 0.2 * size)
+        ear = [box((0.05, 0.012, 0.03), (0.02, y, z - 0.035)) for y in (-0.014, 0.014)]
+        slot = [box((0.045, 0.012, 0.018), (0.02, y, z + 0.009)) for y in (-0.014, 0.014)]
+        bolt = [rod((0.03, 0, z - 0.05), (0.03, 0, z + 0.07), 0.007, 8), box((0.014, 0.09, 0.014), (0.03, 0, z + 0.03))]
+        ears, slots, bolts = (around(merge(some), self.bolts, 1.06 * size, 0.4) for some in (ear, slot, bolt))
+        hinge = box((0.08, 0.05, 0.05), (1.1 * size + 0.03, 0, z))
+        t.add("manway", neck, ears)
+        t.add("manway", turned([*lid, (0.0, z + 0.25 * size)], n), slots, hinge, of="trim")
+        t.add("bolt", bolts)
 
 
-def _hatch(size: float, low: float, rng: np.random.Generator) -> list[Part]:
+class Hatch(Manway):
     """A square hatch: a coaming with an overlapping lid, two hinges and a handle or a hasp."""
-    w, d, tall, name = 2 * size, float(rng.uniform(1.4, 2.2)) * size, float(rng.uniform(0.05, 0.15)), "manway"
-    frame = extrude(rounded_rectangle(w, d, 0.02, 1), low, tall, (rounded_rectangle(w - 0.02, d - 0.02, 0.01, 1),))
-    lid = merge([box((w + 0.05, d + 0.05, 0.006), (0, 0, tall + 0.003)), *_hems(w + 0.05, d + 0.05, tall)])
-    hinges = [box((0.05, 0.06, 0.012), (w / 2 + 0.03, s * 0.3 * d, tall + 0.008)) for s in (-1, 1)]
-    x = -0.35 * w
-    grip = [(x, -0.07, tall + 0.004), (x, -0.07, tall + 0.05), (x, 0.07, tall + 0.05), (x, 0.07, tall + 0.004)]
-    return [
-        Part(frame, name, "tank", name),
-        Part(lid, name, "tank", name),
-        Part(merge([*hinges, rope(grip, 0.007, 8)]), name, "steel", name),
-    ]
+
+    kind = "hatch"
+
+    deep: float = between(1.4, 2.2, "its other side / half its width")
+    tall: float = between(0.05, 0.15, "height of its coaming", "m")
+
+    def build(self, t: Table, size: float, low: float, r: float, dip: float) -> None:
+        w, d, tall = 2 * size, self.deep * size, self.tall
+        frame = extrude(rounded_rectangle(w, d, 0.02, 1), low, tall, (rounded_rectangle(w - 0.02, d - 0.02, 0.01, 1),))
+        wide, deep = w + 0.05, d + 0.05
+        hems = [box((wide, 0.004, 0.04), (0, s * (deep / 2 - 0.002), tall - 0.016)) for s in (-1, 1)]
+        hems += [box((0.004, deep, 0.04), (s * (wide / 2 - 0.002), 0, tall - 0.016)) for s in (-1, 1)]
+        hinges = [box((0.05, 0.06, 0.012), (w / 2 + 0.03, s * 0.3 * d, tall + 0.008)) for s in (-1, 1)]
+        t.add("manway", frame)
+        t.add("manway", box((wide, deep, 0.006), (0, 0, tall + 0.003)), *hems)
+        t.add("manway", *hinges, handle(-0.35 * w, 0.07, tall + 0.004, tall + 0.05, 0.007, 8), of="steel")
 
 
-def _hems(w: float, d: float, tall: float) -> list[Solid]:
-    """The folded edges of a sheet lid."""
-    along_x = [box((w, 0.004, 0.04), (0, s * (d / 2 - 0.002), tall - 0.016)) for s in (-1, 1)]
-    return along_x + [box((0.004, d, 0.04), (s * (w / 2 - 0.002), 0, tall - 0.016)) for s in (-1, 1)]
+class Oval(Manway):
+    """An oval inspection opening (handhole) with its inside cover pulled up by two bridges."""
+
+    kind = "oval"
+
+    def build(self, t: Table, size: float, low: float, r: float, dip: float) -> None:
+        n, squeeze = t.n(size), np.diag([1.0, 0.72, 1.0, 1.0])
+        bridge = [box((0.03, 1.5 * size, 0.025), (0, 0, 0.068))]
+        bridge += [box((0.03, 0.03, 0.03), (0, s * 0.72 * size, 0.045)) for s in (-1, 1)]
+        stud = merge([cylinder(0.008, 0.018, 0.11, 8), hexagon(0.026, 0.08, 0.095)])
+        pair = [at(x) for x in (-0.35 * size, 0.35 * size)]
+        t.moved(squeeze).add("manway", ring(0.85 * size, size, low, 0.04, n))
+        t.moved(squeeze).add("manway", cylinder(0.84 * size, 0.0, 0.022, n))
+        t.add("manway", *(moved(merge(bridge), pose) for pose in pair), of="steel")
+        t.add("stud", *(moved(stud, pose) for pose in pair))
 
 
-def _oval(size: float, low: float, style: ModelingStyle) -> list[Part]:
-    """An oval inspection opening (handhole) with its inside cover pulled up by one or two bridges."""
-    n, name = style.round(size), "manway"
-    squeeze = np.diag([1.0, 0.72, 1.0, 1.0])
-    rim = moved(ring(0.85 * size, size, low, 0.04, n), squeeze)
-    cover = moved(cylinder(0.84 * size, 0.0, 0.022, n), squeeze)
-    bridges, studs = [], []
-    for x in (-0.35 * size, 0.35 * size):
-        bridges.append(
-            merge(
-                [
-                    box((0.03, 1.5 * size, 0.025), (x, 0, 0.068)),
-                    *(box((0.03, 0.03, 0.03), (x, s * 0.72 * size, 0.045)) for s in (-1, 1)),
-                ]
-            )
-        )
-        studs.append(moved(merge([cylinder(0.008, 0.018, 0.11, 8), hexagon(0.026, 0.08, 0.095)]), at(x)))
-    return [
-        Part(rim, name, "tank", name),
-        Part(cover, name, "tank", name),
-        Part(merge(bridges), name, "steel", name),
-        Part(merge(studs), "stud", "fastener", name, _JOINT, True),
-    ]
-
-
-def _screw_lid(size: float, low: float, style: ModelingStyle, rng: np.random.Generator) -> list[Part]:
+class ScrewLid(Manway):
     """A screwed plastic lid with grips round its edge, on a short neck."""
-    n, name = style.round(size), "manway"
-    neck = cylinder(0.94 * size, low, 0.03, n)
-    lid = turned([(size, 0.012), (size, 0.06), (0.9 * size, 0.075), (0.3 * size, 0.085), (0.0, 0.085)], n)
-    grips = around(box((0.02, 0.03, 0.05), (0, 0, 0.037)), int(rng.choice([8, 12, 16])), size)
-    return [Part(neck, name, "tank", name), Part(merge([lid, grips]), name, "rubber", name)]
+
+    kind = "lid"
+
+    grips: int = among((8, 12, 16), "grips")
+
+    def build(self, t: Table, size: float, low: float, r: float, dip: float) -> None:
+        n = t.n(size)
+        lid = outline(size, 0.012, size, 0.06, 0.9 * size, 0.075, 0.3 * size, 0.085, 0.0, 0.085)
+        t.add("manway", cylinder(0.94 * size, low, 0.03, n))
+        grips = around(box((0.02, 0.03, 0.05), (0, 0, 0.037)), self.grips, size)
+        t.add("manway", turned(lid, n), grips, of="rubber")
+
+
+MANWAYS: Mapping[str, type[Manway]] = {one.kind: one for one in (Hinged, Davit, Swing, Hatch, Oval, ScrewLid)}
+"""Manways by what closes them."""
 
 
 # --- lifting lugs ---
@@ -364,13 +388,8 @@ def lug(kind: str, size: float, style: ModelingStyle, r: float = 0.0, dip: float
         return [Part(merge([pad, pipe, cylinder(0.6 * s, 1.1 * s, 1.1 * s + 0.015, n)]), name, "tank")]
     if kind == "eyebolt":
         eye = moved(torus(0.36 * s, 0.1 * s, 16, 8), at(0, 0, 0.55 * s) @ spun("x", np.pi / 2))
-        return [
-            Part(
-                merge([cylinder(0.28 * s, low, 0.12 * s, 12), cylinder(0.14 * s, 0.1 * s, 0.2 * s, 10), eye]),
-                name,
-                "trim",
-            )
-        ]
+        foot = [cylinder(0.28 * s, low, 0.12 * s, 12), cylinder(0.14 * s, 0.1 * s, 0.2 * s, 10)]
+        return [Part(merge([*foot, eye]), name, "trim")]
     if kind == "ring":
         a = np.linspace(0, np.pi, 9)
         arch = np.column_stack([np.zeros(9), 0.5 * s * np.cos(a), 0.5 * s + 0.5 * s * np.sin(a)])
@@ -378,20 +397,18 @@ def lug(kind: str, size: float, style: ModelingStyle, r: float = 0.0, dip: float
         path = np.vstack([[(0, 0.5 * s, feet)], arch, [(0, -0.5 * s, feet)]])
         return [Part(rope(path, 0.1 * s, 10), name, "steel")]
     # The eye stands off the surface; the plate lies in the plane of the axis.
-    outline = np.array([[-0.5, 0.0], [0.9, 0.0], [0.9, 0.12], [0.25, 0.95], [-0.3, 1.1], [-0.62, 0.9], [-0.62, 0.6]])
-    outline = outline * s
-    outline[:2, 1] = low
+    edge = s * np.array(outline(-0.5, 0, 0.9, 0, 0.9, 0.12, 0.25, 0.95, -0.3, 1.1, -0.62, 0.9, -0.62, 0.6))
+    edge[:2, 1] = low
     hole = circle(0.2 * s, 12, (-0.2 * s, 0.72 * s))
     half = 0.05 * s + 0.004
-    plate = moved(extrude(outline, -half, half, (hole,)), spun("x", np.pi / 2))
+    plate = moved(extrude(edge, -half, half, (hole,)), spun("x", np.pi / 2))
     if kind == "cheeks":
         pin = along("y", cylinder(0.2 * s, -0.3 * s, 0.3 * s, 12), -0.2 * s, 0, 0.72 * s)
         pair = [moved(plate, at(0, y)) for y in (-0.2 * s, 0.2 * s)]
         return [Part(merge(pair), name, "tank", name), Part(pin, name, "trim", name)]
     if kind == "pad":
         sheet = bent(box((1.7 * s, 0.9 * s, 0.02 + dip), (0.15 * s, 0, -0.01 - dip / 2 + 0.008)), r)
-        cheek = merge(
-            [along("y", ring(0.2 * s, 0.32 * s, y, y + 0.01, 16), -0.2 * s, 0, 0.72 * s) for y in (half, -half - 0.01)]
-        )
+        rings = [ring(0.2 * s, 0.32 * s, y, y + 0.01, 16) for y in (half, -half - 0.01)]
+        cheek = along("y", merge(rings), -0.2 * s, 0, 0.72 * s)
         return [Part(merge([plate, sheet, cheek]), name, "tank")]
     return [Part(plate, name, "tank")]

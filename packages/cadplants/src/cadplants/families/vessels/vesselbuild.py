@@ -2,301 +2,409 @@
 
 from __future__ import annotations
 
-from functools import partial
+from typing import Any
 
 import numpy as np
 
 from cadgraph.model.scene import Floats
+from cadplants.builder.device import families_of
+from cadplants.builder.params import Params, among, between, chance, given, nested, several, whole
+from cadplants.builder.table import Table
+from cadplants.families.valves.valve import bolt_circle
+from cadplants.families.vessels.vessel import Tank, apart
 from cadplants.families.vessels.vessel_fittings import (
+    MANWAYS,
     Drum,
+    Manway,
     fall,
     head,
     head_height,
     lug,
-    manway,
     mouth,
     mouth_reach,
     sides,
+    spread,
 )
-from cadplants.families.vessels.vesselfeet import legs, saddle, skirt
-from cadplants.family import Build, Family, Model, Part, Port, placed
-from cadplants.mesh_ops import moved
-from cadplants.modeling_style import ModelingStyle
+from cadplants.families.vessels.vesselfeet import FEET, SADDLES, Feet, Saddle
+from cadplants.family import Model, Port
 from cadplants.primitives import cylinder, ring
 from cadplants.standards import FLANGES
 from cadplants.transforms import at, looking, spun
 
-__all__ = ["VESSEL_BUILDS", "closed_vessel", "outlet", "tank_family"]
+__all__ = ["VESSEL_BUILDS", "branch", "put_vessel"]
 
 _HEADS = ("2:1", "torispherical", "torispherical")
+_SIZES = (25, 40, 50, 80, 100, 150)
+_TALL = "height of the shell, but for {} m / its radius"
 
 
-def tank_family(name: str, build: Build, weight: float = 0.7) -> Family:
-    """A family of whole tanks on the floor."""
-    return Family(name, "floor", "Tank", "tank", build, (15,), weight=weight)
-
-
-def outlet(
-    kind: str, dn: int, pose: Floats, style: ModelingStyle, r: float = 0.0, dip: float = 0.0, spare: float = 0.04
-) -> tuple[list[Part], list[Port]]:
-    """A nozzle set on a surface by a frame with z outward, and its port where a line can be flanged on."""
+def branch(
+    t: Table, form: str, dn: int, pose: Floats, r: float = 0.0, dip: float = 0.0, spare: float = 0.04
+) -> list[Port]:
+    """Sets a nozzle on a surface, by a frame with z outward; its port where a line can be flanged on."""
     reach = mouth_reach(dn, spare)
-    parts = placed(mouth(kind, dn, reach, style, r, dip), pose)
-    if kind not in ("plain", "pad", "heavy"):
-        return parts, []
+    t.moved(pose).extend(mouth(form, dn, reach, t.style, r, dip))
     out = pose[:3, 2]
-    return parts, [Port(looking(pose[:3, 3] + out * reach, out), dn)]
+    return [Port(looking(pose[:3, 3] + out * reach, out), dn)] if form in ("plain", "pad", "heavy") else []
 
 
-def _dn(rng: np.random.Generator, r: float) -> int:
-    """A nominal size that suits a vessel of this radius."""
-    return int(rng.choice([dn for dn in (25, 40, 50, 80, 100, 150) if FLANGES[dn].outer < 0.9 * r] or [25]))
+def put_vessel(t: Table, drum: Drum, bottom: str, top: str) -> None:
+    """Puts a shell with two heads down."""
+    t.add("shell", drum.solid(t.style))
+    t.at(0, 0, drum.high).add("dished head", head(top, drum.r, t.style, drum.n))
+    t.at(0, 0, drum.low).along("-z").add("dished head", head(bottom, drum.r, t.style, drum.n))
 
 
-def closed_vessel(drum: Drum, bottom: str, top: str, style: ModelingStyle) -> list[Part]:
-    """A shell, maybe in courses, with two heads."""
-    return [
-        Part(drum.solid(style), "shell", "tank", "tank"),
-        Part(moved(head(top, drum.r, style, drum.n), at(0, 0, drum.high)), "dished head", "tank", "tank"),
-        Part(
-            moved(head(bottom, drum.r, style, drum.n), at(0, 0, drum.low) @ spun("x", np.pi)),
-            "dished head",
-            "tank",
-            "tank",
-        ),
-    ]
+def _sizes(room: float) -> tuple[int, ...]:
+    """Nominal sizes that suit a surface of this radius [m]."""
+    return tuple(dn for dn in _SIZES if FLANGES[dn].outer < 0.9 * room) or (25,)
 
 
-def _upright(
-    _: int,
-    style: ModelingStyle,
-    rng: np.random.Generator,
-    top: str = "",
-    feet: str = "",
-    nozzles: str = "plain",
-    man: str = "",
-    lift: str = "",
-) -> Model:
+class _Nozzle(Params):
+    """A nozzle on the side of an upright vessel."""
+
+    room: float = given(1.0, "radius of the shell", "m")
+    size: int = among(lambda p: _sizes(p.room), "nominal size", "mm")
+    height: float = between(0.15, 0.85, "over the shell's lower rim / height of the shell")
+
+
+class _Further(_Nozzle):
+    """A second or third nozzle on the side of an upright vessel."""
+
+    special: bool = chance(0.6, "it is built as the first one, rather than plain")
+
+
+def _lower(p: Any) -> str:
+    """The lower head of an upright vessel, by its fields."""
+    return str(p.upper) if p.alike else "2:1"
+
+
+def _clear(p: Any) -> float:
+    """Height of an upright vessel's lower rim, by its fields [m]."""
+    return head_height(_lower(p), p.radius) + (0.12 if p.feet == "pads" else p.clear + 0.3 * p.radius)
+
+
+class _Upright(Tank, weight=0.7):
     """An upright vessel (DIN 28022 proportions) with one special build of head, feet, nozzles, manway or lugs."""
-    r = float(rng.uniform(0.45, 1.1)) if man else float(np.exp(rng.uniform(np.log(0.2), np.log(1.2))))
-    if feet in ("tripod", "pads"):
-        r = min(r, 0.6) * 0.7  # what stands on little weighs little
-    height, n = float(rng.uniform(1.2, 4.0)) * r + 0.3, sides(style, r)
-    upper = top or str(rng.choice(_HEADS))
-    lower = top if top and rng.random() < 0.6 else "2:1"
-    feet = feet or str(rng.choice(["angle", "pipe", "pads" if lower == "2:1" else "pipe"]))
-    spare = 0.12 if feet == "pads" else float(rng.uniform(0.2, 0.6)) + 0.3 * r
-    low = head_height(lower, r) + spare
-    drum = Drum(r, low, low + height, n)
-    parts = closed_vessel(drum, lower, upper, style)
-    if feet in ("open", "flared", "chairs"):
-        parts += skirt(feet, drum, style, rng)
-    else:
-        parts += legs(feet, drum, style, rng)
-    ports: list[Port] = []
-    for k in range(int(rng.integers(1, 4))):
-        dn = _dn(rng, r)
-        z = low + height * float(rng.uniform(0.15, 0.85))
-        kind = nozzles if k == 0 or rng.random() < 0.6 else "plain"
-        some, port = outlet(kind, dn, drum.side(2.1 * k + 1.2, z), style, r, drum.dip)
-        parts += some
-        ports += port if z > 0.6 else []
-    apex = drum.high + head_height(upper, r)
-    if rng.random() < 0.75 or nozzles in ("vent", "heavy"):
-        some, port = outlet(nozzles, _dn(rng, 0.6 * r), at(0, 0, apex), style, 0.0, 0.03 * r)
-        parts += some
-        ports += port
-    if man:
-        size = float(rng.uniform(0.42, 0.6)) * r if man in ("oval", "swing") else float(rng.uniform(0.23, 0.3))
-        size = min(size, 0.16 if man == "oval" else 0.3)
-        parts += placed(
-            manway(man, size, style, rng, r, drum.dip), drum.side(5.0, low + height * float(rng.uniform(0.35, 0.6)))
-        )
-    if lift:
-        parts += _lugs(lift, drum, apex, style, rng)
-    return Model(parts, ports=tuple(ports), kind="tank")
+
+    form: str = among(("plain",), "how its nozzles are built")
+    radius: float = spread(0.2, 1.2, "of the shell", "m")
+    slender: float = between(1.2, 4.0, _TALL.format(0.3))
+    upper: str = among(_HEADS, "upper head")
+    alike: bool = chance(0.6, "its lower head is as the upper one", when=lambda p: p.upper not in _HEADS)
+    feet: str = among(lambda p: ("angle", "pipe", "pads" if _lower(p) == "2:1" else "pipe"), "what it stands on")
+    clear: float = between(
+        0.2, 0.6, "from the floor to the lower head, but for 0.3 radii", "m", when=lambda p: p.feet != "pads"
+    )
+    stand: Feet = nested(lambda s, p: FEET[p.feet].draw(s, {"clear": _clear(p)}), "what it stands on")
+    count: int = whole(1, 3, "nozzles on the side")
+    first: _Nozzle = nested(lambda s, p: _Nozzle.draw(s, {"room": p.radius}), "first nozzle on the side")
+    others: tuple[_Further, ...] = several(
+        lambda rng, p: _Further.draw(rng, {"room": p.radius}), lambda p: p.count - 1, "further nozzles on the side"
+    )
+    topped: bool = chance(0.75, "a nozzle on top, wherever it needn't have one")
+    top: int = among(
+        lambda p: _sizes(0.6 * p.radius),
+        "nominal size of the nozzle on top",
+        "mm",
+        when=lambda p: p.topped or p.form in ("vent", "heavy"),
+        otherwise=0,
+    )
+
+    def build(self, t: Table) -> Model:
+        r, low, lower = self.radius, _clear(self), _lower(self)
+        height = self.slender * r + 0.3
+        drum = Drum(r, low, low + height, sides(t.style, r))
+        put_vessel(t, drum, lower, self.upper)
+        t.extend(self.stand.parts(drum, t.style))
+        ports: list[Port] = []
+        for k, one in enumerate((self.first, *self.others)):
+            form = self.form if not isinstance(one, _Further) or one.special else "plain"
+            z = low + height * one.height
+            port = branch(t, form, one.size, drum.side(2.1 * k + 1.2, z), r, drum.dip)
+            ports += port if z > 0.6 else []
+        apex = drum.high + head_height(self.upper, r)
+        if self.top:
+            ports += branch(t, self.form, self.top, at(0, 0, apex), 0.0, 0.03 * r)
+        self.finish(t, drum, apex)
+        return t.model(kind="tank", ports=ports)
+
+    def finish(self, t: Table, drum: Drum, apex: float) -> None:
+        """Puts down what a family has besides, its upper head's apex being at a height [m]."""
 
 
-def _lugs(kind: str, drum: Drum, apex: float, style: ModelingStyle, rng: np.random.Generator) -> list[Part]:
-    """Two to four lugs near the upper rim; eyebolts on top of the head."""
-    size = float(rng.uniform(0.07, 0.12)) + 0.06 * drum.r
-    count = int(rng.choice([2, 2, 3, 4]))
-    if kind == "eyebolt":
-        boss = Part(
-            cylinder(0.5 * size, apex - 0.05 * drum.r - 0.02, apex + 0.012, 12), "lifting lug", "tank", "lifting lug"
-        )
-        x = 0.3 * drum.r
-        drop = 0.04 * drum.r
-        eyes = []
+class _Short(_Upright):
+    """A vessel on what holds little."""
+
+    radius: float = spread(0.2, 1.2, "of the shell", "m", most=0.6, scale=0.7)
+
+
+class _WithManway(_Upright):
+    """An upright vessel with a manway in its shell."""
+
+    radius: float = between(0.45, 1.1, "of the shell", "m")
+    opening: float = between(0.23, 0.3, "radius of the manway's neck", "m")
+    manway: Manway = nested(MANWAYS["hinged"], "manway")
+    height: float = between(0.35, 0.6, "of the manway over the shell's lower rim / height of the shell")
+
+    def finish(self, t: Table, drum: Drum, apex: float) -> None:
+        pose = drum.side(5.0, drum.low + (drum.high - drum.low) * self.height)
+        t.moved(pose).extend(self.manway.parts(t.style, self.neck(), drum.r, drum.dip))
+
+    def neck(self) -> float:
+        """Radius of its neck [m]."""
+        return self.opening
+
+
+class HingedManway(_WithManway, name="manway/hinged"):
+    """An upright vessel with a hinged manway."""
+
+
+class OvalManway(_WithManway, name="manway/oval"):
+    """An upright vessel with an oval inspection opening."""
+
+    opening: float = between(0.42, 0.6, "radius of the inspection opening, at most 0.16 m / of the shell")
+    manway: Manway = nested(MANWAYS["oval"], "inspection opening")
+
+    def neck(self) -> float:
+        return min(self.opening * self.radius, 0.16)
+
+
+class _WithLugs(_Upright):
+    """An upright vessel with two to four lugs near its upper rim."""
+
+    lug: str = among(("pad",), "how its lifting lugs are built")
+    wide: float = between(0.07, 0.12, "width of a lug, but for 0.06 radii of the shell", "m")
+    lugs: int = among((2, 2, 3, 4), "lugs")
+
+    def finish(self, t: Table, drum: Drum, apex: float) -> None:
+        size = self.wide + 0.06 * drum.r
+        for k in range(self.lugs):
+            pose = drum.side(2 * np.pi * k / self.lugs + 0.4, drum.high - (1.1 * size if self.lug != "ring" else size))
+            t.moved(pose).extend(lug(self.lug, size, t.style, drum.r, drum.dip))
+
+
+class _WithEyes(_WithLugs):
+    """An upright vessel with two eyebolts on top of its head."""
+
+    lug: str = among(("eyebolt",), "how its lifting lugs are built")
+
+    def finish(self, t: Table, drum: Drum, apex: float) -> None:
+        size, x, drop = self.wide + 0.06 * drum.r, 0.3 * drum.r, 0.04 * drum.r
+        boss = cylinder(0.5 * size, apex - 0.05 * drum.r - 0.02, apex + 0.012, 12)
         for s in (-1, 1):
-            pose = at(s * x, 0, 0)
-            eyes += placed([boss], pose @ at(0, 0, -drop))
-            eyes += placed(lug("eyebolt", size, style), pose @ at(0, 0, apex + 0.01 - drop))
-        return eyes
-    parts = []
-    for k in range(count):
-        pose = drum.side(2 * np.pi * k / count + 0.4, drum.high - (1.1 * size if kind != "ring" else size))
-        parts += placed(lug(kind, size, style, drum.r, drum.dip), pose)
-    return parts
+            spot = t.at(s * x, 0, -drop)
+            apart(spot, "lifting lug", boss, of="tank")
+            spot.at(0, 0, apex + 0.01).extend(lug("eyebolt", size, t.style))
 
 
-def _lying(
-    _: int,
-    style: ModelingStyle,
-    rng: np.random.Generator,
-    rest: str = "ribbed",
-    top: str = "",
-    man: str = "",
-    lift: str = "",
-) -> Model:
+class _TopNozzle(Params):
+    """A nozzle on a lying vessel."""
+
+    room: float = given(1.0, "radius of what it must suit", "m")
+    form: str = among(("plain", "pad"), "how it is built")
+    size: int = among(lambda p: _sizes(p.room), "nominal size", "mm")
+
+
+def _length(p: Any) -> float:
+    """Length of a lying vessel's shell, by its fields [m]."""
+    return float(min(p.slender * p.radius, 4.5))
+
+
+class _Lying(Tank, weight=0.7):
     """A lying vessel on two or three saddles of one build, with nozzles and maybe a manway on top."""
-    r = float(np.exp(rng.uniform(np.log(0.4 if man else 0.2), np.log(1.15))))
-    if rest in ("sheet", "block"):
-        r = min(r, 0.8) * 0.7
-    length, n = min(float(rng.uniform(2.2, 6.0)) * r, 4.5), sides(style, r)
-    axis = r + float(rng.uniform(0.15, 0.3)) + 0.25 * r * float(rng.random())
-    if rest in ("frame", "concrete"):
-        axis += 0.5
-    drum = Drum(r, 0.0, length, n)
-    kind = top or str(rng.choice([*_HEADS, "hemispherical", "flat"]))
-    lay = at(-length / 2, 0, axis) @ spun("y", np.pi / 2)
-    parts = placed(closed_vessel(drum, kind, kind, style), lay)
-    count = 3 if length > 4.8 * r and rng.random() < 0.3 else 2
-    one = saddle(rest, r, axis, style, rng)
-    for x in np.linspace(-0.3, 0.3, count) * length:
-        parts += placed(one, at(x))
-    spots = list(np.linspace(0.15, 0.85, int(rng.integers(2, 5))) * length)
-    ports: list[Port] = []
-    if man:
-        pose = lay @ drum.side(np.pi, float(spots.pop(1)))
-        size = min(0.5 * r, float(rng.uniform(0.22, 0.3)))
-        size = min(size, 0.16) if man == "oval" else size
-        parts += placed(manway(man, size, style, rng, r, drum.dip), pose)
-    for z in spots:
-        kind_of = str(rng.choice(["plain", "pad"]))
-        some, port = outlet(kind_of, _dn(rng, 0.8 * r), lay @ drum.side(np.pi, float(z)), style, r, drum.dip)
-        parts += some
-        ports += port
-    if rng.random() < 0.5:
-        apex = head_height(kind, r)
-        pose = lay @ at(0, 0, length + apex)
-        some, port = outlet("plain", _dn(rng, 0.6 * r), pose, style, 0.0, 0.02 * r)
-        parts += some
-        ports += port
-    if lift:
-        for z in (0.12 * length, 0.88 * length):
-            turn = lay @ drum.side(np.pi + 0.35 * (1 if z < length / 2 else -1), z)
-            parts += placed(lug(lift, 0.08 + 0.06 * r, style, r, drum.dip), turn)
-    return Model(parts, ports=tuple(ports), kind="tank")
+
+    rest: str = among(("ribbed",), "how its saddles are built")
+    closure: str = among(("none",), "what closes its manway")
+    lug: str = among(("none",), "how its lifting lugs are built")
+    radius: float = spread(0.2, 1.15, "of the shell", "m")
+    slender: float = between(2.2, 6.0, "length of the shell, at most 4.5 m / its radius")
+    clear: float = between(0.15, 0.3, "from the floor to the shell where it lies low", "m")
+    lift: float = between(0, 0.25, "how much higher it lies / radius of the shell")
+    ends: str = among((*_HEADS, "hemispherical", "flat"), "heads at its ends")
+    third: bool = chance(0.3, "a third saddle", when=lambda p: _length(p) > 4.8 * p.radius)
+    saddle: Saddle = nested(lambda s, p: SADDLES[p.rest].draw(s), "each saddle")
+    count: int = whole(2, 4, "nozzles and manways on top")
+    opening: float = between(0.22, 0.3, "radius of the manway's neck", "m", when=lambda p: p.closure != "none")
+    manway: Manway = nested(lambda s, p: MANWAYS[p.closure].draw(s), "manway", when=lambda p: p.closure != "none")
+    nozzles: tuple[_TopNozzle, ...] = several(
+        lambda rng, p: _TopNozzle.draw(rng, {"room": 0.8 * p.radius}),
+        lambda p: p.count - (p.closure != "none"),
+        "nozzles on top",
+    )
+    ended: bool = chance(0.5, "a nozzle at one end")
+    end: int = among(
+        lambda p: _sizes(0.6 * p.radius), "nominal size of that nozzle", "mm", when=lambda p: p.ended, otherwise=0
+    )
+
+    def build(self, t: Table) -> Model:
+        r, length = self.radius, _length(self)
+        axis = r + self.clear + self.lift * r + (0.5 if self.rest in ("frame", "concrete") else 0.0)
+        drum = Drum(r, 0.0, length, sides(t.style, r))
+        lay = at(-length / 2, 0, axis) @ spun("y", np.pi / 2)
+        put_vessel(t.moved(lay), drum, self.ends, self.ends)
+        saddle = self.saddle.parts(r, axis, t.style)
+        for x in np.linspace(-0.3, 0.3, 3 if self.third else 2) * length:
+            t.at(x).extend(saddle)
+        spots = [lay @ drum.side(np.pi, z) for z in np.linspace(0.15, 0.85, self.count) * length]
+        if self.closure != "none":
+            size = min(0.5 * r, self.opening)
+            t.moved(spots.pop(1)).extend(self.manway.parts(t.style, size, r, drum.dip))
+        ports: list[Port] = []
+        for pose, one in zip(spots, self.nozzles, strict=True):
+            ports += branch(t, one.form, one.size, pose, r, drum.dip)
+        if self.ended:
+            pose = lay @ at(0, 0, length + head_height(self.ends, r))
+            ports += branch(t, "plain", self.end, pose, 0.0, 0.02 * r)
+        if self.lug != "none":
+            for z, turn in ((0.12 * length, 0.35), (0.88 * length, -0.35)):
+                pose = lay @ drum.side(np.pi + turn, z)
+                t.moved(pose).extend(lug(self.lug, 0.08 + 0.06 * r, t.style, r, drum.dip))
+        return t.model(kind="tank", ports=ports)
 
 
-def _bolted_head(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class _LyingLow(_Lying, weight=0.8):
+    """A lying vessel on what holds little."""
+
+    radius: float = spread(0.2, 1.15, "of the shell", "m", most=0.8, scale=0.7)
+
+
+class _LyingWithManway(_Lying):
+    """A lying vessel with a manway on top."""
+
+    radius: float = spread(0.4, 1.15, "of the shell", "m")
+
+
+class BoltedHead(Tank, name="dished head/bolted on", weight=0.7):
     """A vessel whose upper head comes off: girth flanges (EN 1092-1 style) with bolts all round, on legs."""
-    from cadplants.families.valves.valve import bolt_circle
 
-    r = float(rng.uniform(0.2, 0.6))
-    height, n = float(rng.uniform(1.0, 2.6)) * r + 0.2, sides(style, r)
-    low = head_height("2:1", r) + 0.35
-    drum = Drum(r, low, low + height, n)
-    thick, wide = 0.015 + 0.04 * r, 1.12 * r + 0.035
-    kind = str(rng.choice(["flat plate", "torispherical", "hemispherical"]))
-    parts = [
-        Part(drum.solid(style), "shell", "tank", "tank"),
-        Part(moved(head("2:1", r, style, n), at(0, 0, low) @ spun("x", np.pi)), "dished head", "tank", "tank"),
-        Part(ring(r, wide, drum.high - thick, drum.high, n), "shell", "flange", "tank"),
-        *legs(str(rng.choice(["pipe", "angle"])), drum, style, rng),
-    ]
-    top = drum.high + thick
-    lid = cylinder(wide, drum.high, top, n) if kind == "flat plate" else ring(0.97 * r, wide, drum.high, top, n)
-    apex = top
-    parts.append(Part(lid, "dished head", "flange", "tank"))
-    if kind != "flat plate":
-        parts.append(Part(moved(head(kind, r, style, n), at(0, 0, top - 0.004)), "dished head", "tank", "tank"))
-        apex += head_height(kind, r) - 0.004
-    count = int(np.clip(2 * np.pi * r / 0.09, 12, 36))
-    bolts = bolt_circle(count, 0.5 * (r + wide) + 0.004, 0.016, drum.high - thick, top)
-    parts.append(Part(bolts, "bolt", "fastener", "tank", "Connection assembly", True))
-    ports: list[Port] = []
-    for pose, curve in ((at(0, 0, apex), 0.0), (drum.side(1.0, low + 0.5 * height), r)):
-        some, port = outlet("plain", _dn(rng, 0.7 * r), pose, style, curve, drum.dip + 0.02 * r)
-        parts += some
-        ports += port
-    if kind != "flat plate" and rng.random() < 0.5:
-        eye = lug("eyebolt", 0.08, style)
-        x = 0.55 * r
-        parts += placed(eye, at(0, x, apex - (0.1 * r if kind == "torispherical" else fall(r, x)) - 0.01))
-    return Model(parts, ports=tuple(ports), kind="tank")
+    radius: float = between(0.2, 0.6, "of the shell", "m")
+    slender: float = between(1.0, 2.6, _TALL.format(0.2))
+    cover: str = among(("flat plate", "torispherical", "hemispherical"), "upper head")
+    feet: str = among(("pipe", "angle"), "legs")
+    stand: Feet = nested(
+        lambda s, p: FEET[p.feet].draw(s, {"clear": head_height("2:1", p.radius) + 0.35}), "what it stands on"
+    )
+    top: int = among(lambda p: _sizes(0.7 * p.radius), "nominal size of the nozzle on top", "mm")
+    side: int = among(lambda p: _sizes(0.7 * p.radius), "nominal size of the nozzle on the side", "mm")
+    eye: bool = chance(0.5, "an eyebolt on the head", when=lambda p: p.cover != "flat plate")
 
-
-def _bottom_nozzles(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
-    """A hygienic vessel: clamp ferrules all over, a conical bottom, pipe legs with ball feet, a swing-bolt manway."""
-    r = float(rng.uniform(0.3, 0.8))
-    height, n = float(rng.uniform(1.0, 2.5)) * r + 0.2, sides(style, r)
-    lower = str(rng.choice(["conical", "conical", "torispherical"]))
-    low = head_height(lower, r) + float(rng.uniform(0.35, 0.6))
-    drum = Drum(r, low, low + height, n)
-    parts = [*closed_vessel(drum, lower, "torispherical", style), *legs("pipe", drum, style, rng)]
-    apex = drum.high + head_height("torispherical", r)
-    dn = int(rng.choice([25, 40, 50]))
-    for k in range(int(rng.integers(3, 7))):
-        pose = drum.side(1.1 * k, low + height * float(rng.uniform(0.1, 0.9)))
-        parts += placed(mouth("ferrule", int(rng.choice([20, 25, 40])), 0.08, style, r, drum.dip), pose)
-    parts += placed(mouth("ferrule", dn, 0.12, style), at(0, 0, low - head_height(lower, r) + 0.01) @ spun("x", np.pi))
-    size = min(0.22, 0.45 * r)
-    parts += placed(manway("swing", size, style, rng, 0.0, 0.12 * r), at(0.0, 0.0, apex - 0.005))
-    for k in range(3):
-        a, x = 2.1 * k + 0.6, 0.72 * r
-        z = drum.high + 0.6 * head_height("torispherical", r)
-        parts += placed(mouth("ferrule", 25, 0.1, style, 0.0, 0.12 * r), at(x * np.cos(a), x * np.sin(a), z))
-    if rng.random() < 0.6:
-        parts.append(
-            Part(ring(0.99 * r, 1.06 * r, low + 0.15 * height, low + 0.8 * height, n), "shell", "trim", "tank")
-        )
-    return Model(parts, kind="process vessel")
+    def build(self, t: Table) -> Model:
+        r, low, flat = self.radius, head_height("2:1", self.radius) + 0.35, self.cover == "flat plate"
+        height, n = self.slender * r + 0.2, sides(t.style, r)
+        drum = Drum(r, low, low + height, n)
+        thick, wide = 0.015 + 0.04 * r, 1.12 * r + 0.035
+        top = drum.high + thick
+        t.add("shell", drum.solid(t.style))
+        t.at(0, 0, low).along("-z").add("dished head", head("2:1", r, t.style, n))
+        t.add("shell", ring(r, wide, drum.high - thick, drum.high, n), of="flange")
+        t.extend(self.stand.parts(drum, t.style))
+        t.add("dished head", ring(0.0 if flat else 0.97 * r, wide, drum.high, top, n), of="flange")
+        apex = top if flat else top + head_height(self.cover, r) - 0.004
+        if not flat:
+            t.at(0, 0, top - 0.004).add("dished head", head(self.cover, r, t.style, n))
+        count = int(np.clip(2 * np.pi * r / 0.09, 12, 36))
+        t.add("bolt", bolt_circle(count, 0.5 * (r + wide) + 0.004, 0.016, drum.high - thick, top))
+        dip = drum.dip + 0.02 * r
+        ports = branch(t, "plain", self.top, at(0, 0, apex), 0.0, dip)
+        ports += branch(t, "plain", self.side, drum.side(1.0, low + 0.5 * height), r, dip)
+        if self.eye:
+            x = 0.55 * r
+            drop = 0.1 * r if self.cover == "torispherical" else fall(r, x)
+            t.at(0, x, apex - drop - 0.01).extend(lug("eyebolt", 0.08, t.style))
+        return t.model(kind="tank", ports=ports)
 
 
-VESSEL_BUILDS: tuple[Family, ...] = (
-    *(
-        tank_family(f"dished head/{name}", partial(_upright, top=kind))
-        for name, kind in (
-            ("hemispherical", "hemispherical"),
-            ("conical", "conical"),
-            ("knuckled flat", "flat"),
-            ("shallow", "shallow"),
-        )
-    ),
-    tank_family("dished head/bolted on", _bolted_head),
-    *(
-        tank_family(f"nozzle/{name}", partial(_upright, nozzles=kind))
-        for name, kind in (
-            ("reinforcing pad", "pad"),
-            ("long welding neck", "heavy"),
-            ("blinded", "blind"),
-            ("gooseneck", "vent"),
-            ("half coupling", "half"),
-            ("tank fitting", "fitting"),
-        )
-    ),
-    tank_family("nozzle/clamp ferrule", _bottom_nozzles),
-    tank_family("manway/hinged", partial(_upright, man="hinged")),
-    tank_family("manway/davit", partial(_lying, man="davit")),
-    tank_family("manway/swing bolts", partial(_lying, man="swing")),
-    tank_family("manway/oval", partial(_upright, man="oval")),
-    *(
-        tank_family(f"saddle/{kind}", partial(_lying, rest=kind), 0.8)
-        for kind in ("ribbed", "block", "sheet", "concrete", "frame")
-    ),
-    tank_family("skirt/doorways", partial(_upright, feet="open"), 0.9),
-    tank_family("skirt/flared", partial(_upright, feet="flared"), 0.9),
-    tank_family("skirt/bolt chairs", partial(_upright, feet="chairs"), 0.9),
-    tank_family("tank leg/braced beams", partial(_upright, feet="beam")),
-    tank_family("tank leg/bracket on frame", partial(_upright, feet="bracket")),
-    tank_family("tank leg/bent flat", partial(_upright, feet="tripod")),
-    tank_family("tank leg/short pads", partial(_upright, feet="pads")),
-    tank_family("lifting lug/plate", partial(_lying, lift="plate")),
-    tank_family("lifting lug/on pad", partial(_upright, lift="pad", feet="chairs")),
-    tank_family("lifting lug/trunnion", partial(_upright, lift="trunnion", feet="open")),
-    tank_family("lifting lug/eyebolt", partial(_upright, lift="eyebolt")),
-    tank_family("lifting lug/bent bar", partial(_upright, lift="ring")),
-    tank_family("lifting lug/cheeks and pin", partial(_lying, lift="cheeks")),
+class _Ferrule(Params):
+    """A clamp ferrule on the side of a hygienic vessel."""
+
+    height: float = between(0.1, 0.9, "over the shell's lower rim / height of the shell")
+    size: int = among((20, 25, 40), "nominal size", "mm")
+
+
+class Hygienic(Tank, name="nozzle/clamp ferrule", weight=0.7):
+    """A hygienic vessel: clamp ferrules all over, a conical bottom, pipe legs, a swing-bolt manway."""
+
+    radius: float = between(0.3, 0.8, "of the shell", "m")
+    slender: float = between(1.0, 2.5, _TALL.format(0.2))
+    lower: str = among(("conical", "conical", "torispherical"), "lower head")
+    clear: float = between(0.35, 0.6, "from the floor to the lower head", "m")
+    legs: Feet = nested(FEET["pipe"], "legs")
+    drain: int = among((25, 40, 50), "nominal size of the ferrule below", "mm")
+    count: int = whole(3, 6, "ferrules on the side")
+    ferrules: tuple[_Ferrule, ...] = several(lambda rng, _: _Ferrule.draw(rng), lambda p: p.count, "ferrules")
+    manway: Manway = nested(MANWAYS["swing"], "manway on top")
+    sleeved: bool = chance(0.6, "a sleeve round the shell")
+
+    def build(self, t: Table) -> Model:
+        r, high = self.radius, head_height("torispherical", self.radius)
+        height, bottom = self.slender * r + 0.2, head_height(self.lower, r)
+        low = bottom + self.clear
+        drum = Drum(r, low, low + height, sides(t.style, r))
+        put_vessel(t, drum, self.lower, "torispherical")
+        t.extend(self.legs.parts(drum, t.style))
+        for k, one in enumerate(self.ferrules):
+            pose = drum.side(1.1 * k, low + height * one.height)
+            t.moved(pose).extend(mouth("ferrule", one.size, 0.08, t.style, r, drum.dip))
+        t.at(0, 0, low - bottom + 0.01).along("-z").extend(mouth("ferrule", self.drain, 0.12, t.style))
+        size, top = min(0.22, 0.45 * r), mouth("ferrule", 25, 0.1, t.style, 0.0, 0.12 * r)
+        t.at(0, 0, drum.high + high - 0.005).extend(self.manway.parts(t.style, size, 0.0, 0.12 * r))
+        for a in 2.1 * np.arange(3) + 0.6:
+            t.at(0.72 * r * np.cos(a), 0.72 * r * np.sin(a), drum.high + 0.6 * high).extend(top)
+        if self.sleeved:
+            sleeve = ring(0.99 * r, 1.06 * r, low + 0.15 * height, low + 0.8 * height, drum.n)
+            t.add("shell", sleeve, of="trim")
+        return t.model(kind="process vessel")
+
+
+def _of(base: type[Tank], name: str, weight: float = 0.0, **fixed: str) -> type[Tank]:
+    """A family of vessels that differs from others in what some fields can only be.
+
+    Args:
+        base: of the family.
+        name: of the family.
+        weight: how often it is drawn, as the base if 0.
+        fixed: the values of the fields, by their names.
+    """
+    body: dict[str, Any] = {key: among((value,), base.fields()[key].about) for key, value in fixed.items()}
+    body |= {"__annotations__": dict.fromkeys(fixed, "str"), "__doc__": base.__doc__, "__module__": __name__}
+    made: type[Tank] = type(name, (base,), body, name=name, weight=weight or base.weight)
+    return made
+
+
+VESSEL_BUILDS = families_of(
+    _of(_Upright, "dished head/hemispherical", upper="hemispherical"),
+    _of(_Upright, "dished head/conical", upper="conical"),
+    _of(_Upright, "dished head/knuckled flat", upper="flat"),
+    _of(_Upright, "dished head/shallow", upper="shallow"),
+    BoltedHead,
+    _of(_Upright, "nozzle/reinforcing pad", form="pad"),
+    _of(_Upright, "nozzle/long welding neck", form="heavy"),
+    _of(_Upright, "nozzle/blinded", form="blind"),
+    _of(_Upright, "nozzle/gooseneck", form="vent"),
+    _of(_Upright, "nozzle/half coupling", form="half"),
+    _of(_Upright, "nozzle/tank fitting", form="fitting"),
+    Hygienic,
+    HingedManway,
+    _of(_LyingWithManway, "manway/davit", closure="davit"),
+    _of(_LyingWithManway, "manway/swing bolts", closure="swing"),
+    OvalManway,
+    _of(_Lying, "saddle/ribbed", 0.8, rest="ribbed"),
+    _of(_LyingLow, "saddle/block", rest="block"),
+    _of(_LyingLow, "saddle/sheet", rest="sheet"),
+    _of(_Lying, "saddle/concrete", 0.8, rest="concrete"),
+    _of(_Lying, "saddle/frame", 0.8, rest="frame"),
+    _of(_Upright, "skirt/doorways", 0.9, feet="open"),
+    _of(_Upright, "skirt/flared", 0.9, feet="flared"),
+    _of(_Upright, "skirt/bolt chairs", 0.9, feet="chairs"),
+    _of(_Upright, "tank leg/braced beams", feet="beam"),
+    _of(_Upright, "tank leg/bracket on frame", feet="bracket"),
+    _of(_Short, "tank leg/bent flat", feet="tripod"),
+    _of(_Short, "tank leg/short pads", feet="pads"),
+    _of(_Lying, "lifting lug/plate", lug="plate"),
+    _of(_WithLugs, "lifting lug/on pad", lug="pad", feet="chairs"),
+    _of(_WithLugs, "lifting lug/trunnion", lug="trunnion", feet="open"),
+    _of(_WithEyes, "lifting lug/eyebolt", lug="eyebolt"),
+    _of(_WithLugs, "lifting lug/bent bar", lug="ring"),
+    _of(_Lying, "lifting lug/cheeks and pin", lug="cheeks"),
 )
