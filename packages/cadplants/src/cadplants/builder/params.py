@@ -35,6 +35,7 @@ __all__ = [
     "given",
     "nested",
     "several",
+    "spread",
     "styled",
     "weighted",
     "whole",
@@ -144,6 +145,30 @@ def between(
     limits = "by the fields before" if callable(low) or callable(high) else f"{low:g} to {high:g}"
     draw = lambda source, before: float(source.rng.uniform(*bounds(before)))  # noqa: E731
     return _field(Field(about, unit, limits, draw, accept, when, otherwise))  # type: ignore[no-any-return]
+
+
+def spread(low: float, high: float, about: str, unit: str = "", *, most: float = np.inf, scale: float = 1.0) -> float:
+    """A number whose logarithm is drawn evenly, so that small ones are as usual as large ones.
+
+    Args:
+        low: the least that is drawn.
+        high: the most that is drawn.
+        about: what it means: a noun phrase.
+        unit: of it.
+        most: what is drawn above becomes this.
+        scale: what the result is then multiplied by.
+    """
+    least, largest = scale * min(low, most), scale * min(high, most)
+
+    def sample(source: Source, _: Any) -> float:
+        return scale * min(float(np.exp(source.rng.uniform(np.log(low), np.log(high)))), most)
+
+    def accept(value: Any, _: Any) -> float:
+        if not least <= float(value) <= largest:
+            raise ValueError(f"give {least:g} to {largest:g}")
+        return float(value)
+
+    return _field(Field(about, unit, f"{least:g} to {largest:g}", sample, accept))  # type: ignore[no-any-return]
 
 
 def whole(low: int, high: int, about: str, *, when: When | None = None, otherwise: int = 0) -> int:
@@ -277,7 +302,7 @@ def several(
 @dataclass_transform(
     kw_only_default=True,
     frozen_default=True,
-    field_specifiers=(between, whole, chance, among, weighted, given, nested, several, styled),
+    field_specifiers=(between, whole, chance, among, weighted, given, nested, several, spread, styled),
 )
 class Params:
     """The parameters of a device or a piece of one; every subclass is a frozen dataclass of its fields.

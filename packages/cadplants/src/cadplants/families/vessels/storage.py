@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from cadplants.builder.device import families_of
-from cadplants.builder.params import Params, among, between, chance, given, nested, several, whole
+from cadplants.builder.params import Params, among, between, chance, given, nested, several, spread, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.vessels.vessel import Tank, apart
 from cadplants.families.vessels.vessel_fittings import (
@@ -17,7 +17,6 @@ from cadplants.families.vessels.vessel_fittings import (
     head_height,
     mouth,
     sides,
-    spread,
 )
 from cadplants.families.vessels.vesselbuild import branch
 from cadplants.families.vessels.vesselfeet import FEET, Feet, foot_plate, ladder, ringed_rail

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from cadgraph.model.scene import Floats
-from cadplants.builder.params import Field, Params, among, between, chance
+from cadplants.builder.params import Params, among, between, chance
 from cadplants.builder.table import Table, outline
 from cadplants.families.valves.valve import bolt_circle, disc_flange
 from cadplants.families.vessels.vessel import head_profile
@@ -25,34 +23,10 @@ from cadplants.transforms import at, spun
 
 __all__ = [
     "MANWAYS", "Drum", "Manway", "bent", "capped", "fall", "handle", "head", "head_height", "lug", "mouth",
-    "mouth_reach", "renamed", "sides", "spread", "wrapped",
+    "mouth_reach", "renamed", "sides", "wrapped",
 ]  # fmt: skip
 
 _JOINT = "Connection assembly"
-
-
-def spread(low: float, high: float, about: str, unit: str = "", *, most: float = np.inf, scale: float = 1.0) -> float:
-    """A parameter that is drawn with an evenly spread logarithm, so that small ones are as usual as large ones.
-
-    Args:
-        low: the least that is drawn.
-        high: the most that is drawn.
-        about: what it means: a noun phrase.
-        unit: of it.
-        most: what is drawn above becomes this.
-        scale: what the result is then multiplied by.
-    """
-    least, largest = scale * min(low, most), scale * min(high, most)
-
-    def sample(source: Any, _: Any) -> float:
-        return scale * min(float(np.exp(source.rng.uniform(np.log(low), np.log(high)))), most)
-
-    def accept(value: Any, _: Any) -> float:
-        if not least <= float(value) <= largest:
-            raise ValueError(f"give {least:g} to {largest:g}")
-        return float(value)
-
-    return dataclasses.field(metadata={"spec": Field(about, unit, f"{least:g} to {largest:g}", sample, accept)})  # type: ignore[no-any-return]
 
 
 def handle(x: float, half: float, low: float, high: float, radius: float, sides: int) -> Solid:

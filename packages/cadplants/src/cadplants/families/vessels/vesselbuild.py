@@ -8,7 +8,7 @@ import numpy as np
 
 from cadgraph.model.scene import Floats
 from cadplants.builder.device import families_of
-from cadplants.builder.params import Params, among, between, chance, given, nested, several, whole
+from cadplants.builder.params import Params, among, between, chance, given, nested, several, spread, whole
 from cadplants.builder.table import Table
 from cadplants.families.valves.valve import bolt_circle
 from cadplants.families.vessels.vessel import Tank, apart
@@ -23,7 +23,6 @@ from cadplants.families.vessels.vessel_fittings import (
     mouth,
     mouth_reach,
     sides,
-    spread,
 )
 from cadplants.families.vessels.vesselfeet import FEET, SADDLES, Feet, Saddle
 from cadplants.family import Model, Port
