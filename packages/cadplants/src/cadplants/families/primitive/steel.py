@@ -2,341 +2,508 @@
 
 from __future__ import annotations
 
-from functools import partial
+from collections.abc import Callable
+from typing import Any, ClassVar
 
 import numpy as np
 
 from cadgraph.model.scene import Floats
-from cadplants.families.chance import chance, num, pick
-from cadplants.families.primitive.shape import FRAME, disc, family, lying, part, torus_piece
-from cadplants.family import Family, Model, Part
+from cadplants.builder.device import Device, families_of
+from cadplants.builder.params import Params, among, between, chance, given, nested, several, spread, whole
+from cadplants.builder.table import Table
+from cadplants.families.primitive.shape import FRAME, disc, lying, torus_piece
+from cadplants.family import Family, Model
 from cadplants.mesh_ops import Solid, extrude, moved
-from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle, section_angle, section_channel, section_i
 from cadplants.primitives import bar, box, cylinder, rod, torus
 from cadplants.transforms import at, spun
 
 __all__ = ["PRIMITIVE_STEEL"]
 
+Outline = tuple[Floats, tuple[Floats, ...]]
+_BOTH = (-1, 1)
 
-def _outline(h: float, kind: str) -> tuple[Floats, tuple[Floats, ...]]:
+
+def _outline(h: float, form: str) -> Outline:
     """A sharp section of a height [m], its outline and holes."""
-    if kind == "I":
+    if form == "I":
         return section_i(h, 0.8 * h, 0.06 * h, 0.09 * h), ()
-    if kind == "U":
+    if form == "U":
         return section_channel(h, 0.45 * h, 0.07 * h, 0.1 * h) - (0.2 * h, 0.0), ()
-    if kind == "L":
+    if form == "L":
         return section_angle(h, 0.1 * h) - (0.3 * h, 0.3 * h), ()
-    if kind == "tube":
+    if form == "tube":
         return rounded_rectangle(h, h, 0.0), (rounded_rectangle(0.88 * h, 0.88 * h, 0.0),)
     return rounded_rectangle(0.6 * h, h, 0.0), ()
 
 
-def _section(rng: np.random.Generator, low: float = 0.06, high: float = 0.25) -> tuple[Floats, tuple[Floats, ...]]:
-    return _outline(num(rng, low, high), pick(rng, "I", "I", "U", "L", "tube", "flat"))
+class _Section(Params):
+    """A sharp section."""
+
+    least: float = given(0.06, "its least height", "m")
+    most: float = given(0.25, "its greatest height", "m")
+    high: float = between(lambda p: p.least, lambda p: p.most, "height", "m")
+    form: str = among(("I", "I", "U", "L", "tube", "flat"), "shape")
+
+    @property
+    def outline(self) -> Outline:
+        """Its outline and holes."""
+        return _outline(self.high, self.form)
+
+    @property
+    def size(self) -> float:
+        """Its extent [m]."""
+        return float(np.ptp(self.outline[0][:, 1]))
 
 
-def _steel(name: str, *solids: Solid, bundle: str = "") -> Part:
-    return part(name, *solids, color="steel", bundle=bundle)
+def _section(least: float = 0.06, most: float = 0.25, when: Callable[[Any], bool] | None = None) -> _Section:
+    return nested(lambda s, _: _Section.draw(s, {"least": least, "most": most}), "rolled section", when=when)
 
 
-def _foot(x: float, y: float, size: float, style: ModelingStyle, rng: np.random.Generator) -> list[Part]:
-    """A plate and a block under a column, or one of them, or neither; plates are square or round [m]."""
-    parts = []
-    if chance(rng, 0.6):
-        thick = num(rng, 0.01, 0.03)
-        plate = box((2 * size, 2 * size, thick), (x, y, thick / 2))
-        if chance(rng, 0.3):
-            plate = moved(disc(1.2 * size, 0.0, thick, style), at(x, y))
-        parts.append(_steel("base plate", plate))
-    if chance(rng, 0.4):
-        deep = num(rng, 0.2, 0.5)
-        block = box((3 * size, 3 * size, deep), (x, y, -deep / 2))
-        parts.append(part("foundation", block, color="concrete"))
-    return parts
+class _Foot(Params):
+    """A plate and a block under a column, or one of them, or neither; plates are square or round."""
+
+    plated: bool = chance(0.6, "a plate")
+    thick: float = between(0.01, 0.03, "of the plate", "m", when=lambda p: p.plated)
+    round_: bool = chance(0.3, "the plate is round", when=lambda p: p.plated)
+    block: bool = chance(0.4, "a block")
+    deep: float = between(0.2, 0.5, "depth of the block", "m", when=lambda p: p.block)
+
+    def build(self, t: Table, size: float) -> None:
+        """Puts it down under a column of a width [m]."""
+        thick, deep = self.thick, self.deep
+        if self.plated:
+            square = box((2 * size, 2 * size, thick), (0, 0, thick / 2))
+            t.add("base plate", disc(1.2 * size, 0.0, thick, t.style) if self.round_ else square)
+        if self.block:
+            t.add("foundation", box((3 * size, 3 * size, deep), (0, 0, -deep / 2)))
 
 
-def _portal(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class _Steel(Device, group=FRAME, sizes=(15,)):
+    """A structure of primitives."""
+
+
+class _Side(Params):
+    """One side of a frame."""
+
+    bays: int = given(1, "bays")
+    feet: tuple[_Foot, ...] = several(lambda rng, _: _Foot.draw(rng), lambda p: p.bays + 1, "feet of the columns")
+    flush: bool = chance(0.5, "its beams lie between the columns, not on them")
+
+
+class SharpFrame(_Steel, name="frame/sharp sections", label="beam", weight=2.5):
     """Columns and beams of one section, with braces at times: a frame of one or more bays."""
-    outline, holes = _section(rng, 0.08, 0.25)
-    size = float(np.ptp(outline[:, 1]))
-    bays, wide, deep, high = (
-        int(rng.integers(1, 4)),
-        num(rng, 1.2, 3.0),
-        pick(rng, 0.0, num(rng, 1.0, 2.0)),
-        num(rng, 1.2, 4),
+
+    section: _Section = _section(0.08, 0.25)
+    bays: int = whole(1, 3, "bays")
+    wide: float = between(1.2, 3.0, "width of a bay", "m")
+    deep: float = between(1.0, 2.0, "between the two sides", "m")
+    two: bool = among((False, True), "it has two sides")
+    high: float = between(1.2, 4, "height of the columns", "m")
+    sides: tuple[_Side, ...] = several(
+        lambda rng, p: _Side.draw(rng, {"bays": p.bays}), lambda p: 2 if p.two else 1, "its sides"
     )
-    parts: list[Part] = []
-    sides = (0.0, deep) if deep else (0.0,)
-    for y in sides:
-        for k in range(bays + 1):
-            parts.append(_steel("column", bar((k * wide, y, 0), (k * wide, y, high), outline, holes)))
-            parts += _foot(k * wide, y, size, style, rng)
-        top = high - size / 2 if chance(rng, 0.5) else high + size / 2
-        for k in range(bays):
-            parts.append(_steel("beam", bar((k * wide, y, top), ((k + 1) * wide, y, top), outline, holes)))
-    if deep:
-        for k in range(bays + 1):
-            parts.append(_steel("beam", bar((k * wide, 0, 0.98 * high), (k * wide, deep, 0.98 * high), outline, holes)))
-    if chance(rng, 0.5):
-        thin = _outline(0.5 * size, pick(rng, "L", "flat", "tube"))
-        parts.append(_steel("brace", bar((0, 0, 0.1), (wide, 0, 0.95 * high), *thin)))
-    return Model(parts)
+    braced: bool = chance(0.5, "a brace in the first bay")
+    brace: str = among(("L", "flat", "tube"), "section of the brace", when=lambda p: p.braced, otherwise="")
+
+    def build(self, t: Table) -> Model:
+        section, size, wide, high = self.section.outline, self.section.size, self.wide, self.high
+        for y, side in zip((0.0, self.deep), self.sides, strict=False):
+            for k, foot in enumerate(side.feet):
+                t.add("column", bar((k * wide, y, 0), (k * wide, y, high), *section))
+                foot.build(t.at(k * wide, y), size)
+            top = high - size / 2 if side.flush else high + size / 2
+            for k in range(self.bays):
+                t.add("beam", bar((k * wide, y, top), ((k + 1) * wide, y, top), *section))
+        for k in range(self.bays + 1) if self.two else ():
+            t.add("beam", bar((k * wide, 0, 0.98 * high), (k * wide, self.deep, 0.98 * high), *section))
+        if self.braced:
+            t.add("brace", bar((0, 0, 0.1), (wide, 0, 0.95 * high), *_outline(0.5 * size, self.brace)))
+        return t.model()
 
 
-def _loose_beam(_: int, style: ModelingStyle, rng: np.random.Generator, name: str = "beam") -> Model:
-    """A beam on two posts or a lone column."""
-    outline, holes = _section(rng)
-    size, length = float(np.ptp(outline[:, 1])), num(rng, 1.0, 6.0)
-    if name == "column":
-        return Model([_steel("column", bar((0, 0, 0), (0, 0, length), outline, holes)), *_foot(0, 0, size, style, rng)])
-    high = num(rng, 0.3, 3.0)
-    parts = [_steel("beam", bar((0, 0, high), (length, 0, high), outline, holes))]
-    for x in (0.15 * length, 0.85 * length):
+class BeamOnPosts(_Steel, name="beam/on posts", label="beam"):
+    """A beam on two posts."""
+
+    section: _Section = _section()
+    length: float = between(1.0, 6.0, "of the beam", "m")
+    high: float = between(0.3, 3.0, "height of the beam", "m")
+    under: tuple[str, ...] = several(
+        lambda rng, _: ("column", "post")[int(rng.integers(2))], lambda _: 2, "what each post is taken for"
+    )
+
+    def build(self, t: Table) -> Model:
+        size, length, high = self.section.size, self.length, self.high
+        t.add("beam", bar((0, 0, high), (length, 0, high), *self.section.outline))
         post = extrude(rounded_rectangle(0.8 * size, 0.8 * size, 0.0), 0.0, high - size / 2)
-        parts.append(_steel(pick(rng, "column", "post"), moved(post, at(x))))
-    return Model(parts)
+        for x, name in zip((0.15 * length, 0.85 * length), self.under, strict=True):
+            t.at(x).add(name, post)
+        return t.model()
 
 
-def _deck(_: int, style: ModelingStyle, rng: np.random.Generator, name: str = "platform") -> Model:
-    """A flat box as a platform, or crossed bars as a grating, on beams and columns, with single bars as a railing."""
-    a, b, high, thick = num(rng, 1.0, 4.0), num(rng, 0.8, 2.0), num(rng, 0.4, 3.0), num(rng, 0.02, 0.06)
-    slabs = [box((a, b, thick), (a / 2, 0, high + thick / 2))]
-    if name == "grating":
-        gap = pick(rng, 0.04, 0.06, 0.1)
-        slabs = [box((a, 0.006, thick), (a / 2, float(y), high + thick / 2)) for y in np.arange(-b / 2, b / 2, gap)]
-        slabs += [
-            box((0.008, b, 0.4 * thick), (float(x), 0, high + 0.8 * thick)) for x in np.arange(0.05, a, 2.5 * gap)
-        ]
-    parts = [_steel(name, *slabs, bundle=name)]
-    size = num(rng, 0.05, 0.14)
-    for y in (-b / 2 + size, b / 2 - size):
-        parts.append(_steel("beam", box((a, 0.6 * size, size), (a / 2, y, high - size / 2))))
-        for x in (size, a - size):
-            parts.append(_steel("column", box((size, size, high - size), (x, y, (high - size) / 2))))
-    if chance(rng, 0.6):
-        parts += _bars(a, -b / 2 + 0.03, high + thick, style, rng)
-    return Model(parts)
+class SharpColumn(_Steel, name="column/sharp section", label="column"):
+    """A lone column."""
+
+    section: _Section = _section()
+    length: float = between(1.0, 6.0, "height", "m")
+    foot: _Foot = nested(_Foot, "foot")
+
+    def build(self, t: Table) -> Model:
+        t.add("column", bar((0, 0, 0), (0, 0, self.length), *self.section.outline))
+        self.foot.build(t, self.section.size)
+        return t.model()
 
 
-def _bars(length: float, y: float, z: float, style: ModelingStyle, rng: np.random.Generator) -> list[Part]:
-    """A railing along x of single posts and rails, round or square, each a piece of its own [m]."""
-    high, r = num(rng, 0.9, 1.15), num(rng, 0.012, 0.026)
-    square, n = chance(rng, 0.3), min(style.round(r), 16)
+class _SingleBars(Params):
+    """A railing along x of single posts and rails, round or square, each a piece of its own."""
 
-    def one(start: tuple[float, float, float], end: tuple[float, float, float]) -> Solid:
-        return bar(start, end, rounded_rectangle(2 * r, 2 * r, 0.0)) if square else rod(start, end, r, n)
+    high: float = between(0.9, 1.15, "height", "m")
+    radius: float = between(0.012, 0.026, "of a bar", "m")
+    square: bool = chance(0.3, "its bars are square")
+    pitch: float = between(0.7, 1.5, "least distance of the posts", "m")
+    named: str = among(("post", "railing"), "what its posts are taken for")
+    knee: bool = chance(0.8, "a knee rail")
+    low: bool = chance(0.3, "a rail near the floor")
+    toe: bool = chance(0.4, "a toe plate")
 
-    xs = np.linspace(0.03, length - 0.03, max(2, int(length / num(rng, 0.7, 1.5)) + 1))
-    named = pick(rng, "post", "railing")
-    parts = [part(named, one((float(x), y, z), (float(x), y, z + high)), color="safety", bundle="railing") for x in xs]
-    for share in (1.0, *((0.5,) if chance(rng, 0.8) else ()), *((0.1,) if chance(rng, 0.3) else ())):
-        level = z + share * high
-        parts.append(part("railing", one((0, y, level), (length, y, level)), color="safety", bundle="railing"))
-    if chance(rng, 0.4):
-        parts.append(
-            part("railing", box((length, 0.006, 0.1), (length / 2, y, z + 0.06)), color="safety", bundle="railing")
-        )
-    return parts
+    def build(self, t: Table, length: float) -> None:
+        """Puts it down over a length [m]."""
+        high, r, n, t = self.high, self.radius, min(t.n(self.radius), 16), t.bundled("railing")
+
+        def one(start: tuple[float, float, float], end: tuple[float, float, float]) -> Solid:
+            return bar(start, end, rounded_rectangle(2 * r, 2 * r, 0.0)) if self.square else rod(start, end, r, n)
+
+        for x in np.linspace(0.03, length - 0.03, max(2, int(length / self.pitch) + 1)):
+            t.add(self.named, one((float(x), 0, 0), (float(x), 0, high)), of="safety")
+        for share, there in ((1.0, True), (0.5, self.knee), (0.1, self.low)):
+            if there:
+                t.add("railing", one((0, 0, share * high), (length, 0, share * high)))
+        if self.toe:
+            t.add("railing", box((length, 0.006, 0.1), (length / 2, 0, 0.06)))
 
 
-def _railing(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class DeckOnColumns(_Steel, name="platform/on columns", label="platform", grain="fitting"):
+    """A flat box as a platform on beams and columns, with single bars as a railing."""
+
+    length: float = between(1.0, 4.0, "length", "m")
+    wide: float = between(0.8, 2.0, "width", "m")
+    high: float = between(0.4, 3.0, "height of its underside", "m")
+    thick: float = between(0.02, 0.06, "thickness", "m")
+    gap: float = given(0.0, "between the bars of a grating", "m")
+    size: float = between(0.05, 0.14, "of beams and columns", "m")
+    railed: bool = chance(0.6, "a railing along one side")
+    railing: _SingleBars = nested(_SingleBars, "railing", when=lambda p: p.railed)
+
+    def build(self, t: Table) -> Model:
+        a, b, high, thick, size = self.length, self.wide, self.high, self.thick, self.size
+        slabs = [box((a, b, thick), (a / 2, 0, high + thick / 2))]
+        if self.gap:
+            ys, xs = np.arange(-b / 2, b / 2, self.gap), np.arange(0.05, a, 2.5 * self.gap)
+            slabs = [box((a, 0.006, thick), (a / 2, float(y), high + thick / 2)) for y in ys]
+            slabs += [box((0.008, b, 0.4 * thick), (float(x), 0, high + 0.8 * thick)) for x in xs]
+        t.bundled(self.label).add(self.label, *slabs, of="steel")
+        for y in (-b / 2 + size, b / 2 - size):
+            t.add("beam", box((a, 0.6 * size, size), (a / 2, y, high - size / 2)))
+            for x in (size, a - size):
+                t.add("column", box((size, size, high - size), (x, y, (high - size) / 2)))
+        if self.railed:
+            self.railing.build(t.at(0, -b / 2 + 0.03, high + thick), a)
+        return t.model()
+
+
+class GratingOnColumns(DeckOnColumns, name="grating/on columns", label="grating"):
+    """Crossed bars as a grating on beams and columns, with single bars as a railing."""
+
+    gap: float = among((0.04, 0.06, 0.1), "between its bars", "m")
+
+
+class SingleBars(_Steel, name="railing/single bars", label="railing", weight=1.5):
     """A railing of single bars on the floor."""
-    return Model(_bars(num(rng, 1.0, 5.0), 0.0, 0.0, style, rng))
+
+    length: float = between(1.0, 5.0, "length", "m")
+    railing: _SingleBars = nested(_SingleBars, "railing")
+
+    def build(self, t: Table) -> Model:
+        self.railing.build(t, self.length)
+        return t.model()
 
 
-def _stairs(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class _Stringer(Params):
+    """One side of a flight."""
+
+    deep: float = between(0.15, 0.25, "depth", "m")
+    railed: bool = chance(0.6, "a rail over it")
+
+
+class Boxes(_Steel, name="stairs/boxes", label="stair tread", weight=1.5, grain="fitting"):
     """Boxes as treads between two slanted boxes, or blocks on each other."""
-    count, wide, rise, going = int(rng.integers(3, 12)), num(rng, 0.6, 1.2), num(rng, 0.15, 0.22), num(rng, 0.2, 0.3)
-    solid = chance(rng, 0.3)
-    parts = []
-    for k in range(count):
-        high = (k + 1) * rise if solid else pick(rng, 0.03, 0.03, 0.05)
-        center = (k * going, 0, (k + 1) * rise - high / 2)
-        parts.append(_steel("stair tread", box((going, wide, high), center), bundle="stair tread"))
-    if not solid:
-        end = (count * going, count * rise)
-        for y in (-wide / 2 - 0.02, wide / 2 + 0.02):
-            outline = rounded_rectangle(0.03, num(rng, 0.15, 0.25), 0.0)
-            parts.append(_steel("beam", bar((-going / 2, y, 0.1), (end[0], y, end[1]), outline)))
-            if chance(rng, 0.6):
-                rail = rod((-going / 2, y, 1.0), (end[0], y, end[1] + 0.95), 0.02, min(style.round(0.02), 16))
-                parts.append(part("railing", rail, color="safety", bundle="railing"))
-                for share in (0.1, 0.9):
-                    foot = (share * end[0], y, share * end[1] + 0.1)
-                    upright = rod(foot, (foot[0], y, foot[2] + 0.9), 0.018, min(style.round(0.018), 16))
-                    parts.append(part("post", upright, color="safety", bundle="railing"))
-    return Model(parts)
 
-
-def _ladder(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
-    """Two bars and rungs, upright, in one mesh or in single bars; hoops at times."""
-    high, wide, r = num(rng, 1.5, 5.0), num(rng, 0.35, 0.5), num(rng, 0.008, 0.016)
-    n, flat = min(style.round(r), 12), chance(rng, 0.5)
-    solids = []
-    for y in (-wide / 2, wide / 2):
-        solids.append(box((0.06, 0.012, high), (0, y, high / 2)) if flat else cylinder(1.5 * r, 0, high, n))
-        if not flat:
-            solids[-1] = moved(solids[-1], at(0, y))
-    solids += [rod((0, -wide / 2, z), (0, wide / 2, z), r, n) for z in np.arange(0.25, high - 0.1, 0.28)]
-    if high > 2.5 and chance(rng, 0.5):
-        for z in np.arange(2.2, high, 0.8):
-            solids.append(moved(torus(0.36, 0.015, 16, 4), at(0.36, 0, float(z))))
-    if chance(rng, 0.5):
-        return Model([_steel("ladder", *solids, bundle="ladder")])
-    return Model([_steel("ladder", one, bundle="ladder") for one in solids])
-
-
-def _post(_: int, style: ModelingStyle, rng: np.random.Generator, name: str = "post") -> Model:
-    """An upright of closed round or square section, from knee high to several metres, on a plate or bare.
-
-    Called pipe it runs on as pipes do: with an elbow's start, a flange or a cap on top.
-    """
-    high = float(np.exp(rng.uniform(np.log(0.3), np.log(5.0))))
-    r = num(rng, 0.02, 0.09)
-    if name == "post":
-        solid = disc(r, 0.0, high, style)
-        if chance(rng, 0.4):
-            solid = extrude(rounded_rectangle(2 * r, 2 * r, 0.0), 0.0, high)
-        parts = [_steel("post", solid), *_foot(0, 0, 1.6 * r, style, rng)]
-        if chance(rng, 0.3):
-            parts.append(_steel("plate", box((4 * r, 4 * r, 0.01), (0, 0, high + 0.005))))
-        return Model(parts)
-    pipe = "Pipe assembly"
-    bore = 0.88 * r if style.hollow else 0.0
-    path = [(0.0, 0.0, 0.0), (0.0, 0.0, high)]
-    parts = [part("pipe", torus_piece(path, r, style.round(r), bore), color="pipe", bundle="pipe")]
-    kind = int(rng.integers(4))
-    if kind == 0:
-        parts.append(part("pipe cap", disc(1.1 * r, high, high + 0.8 * r, style), color="pipe"))
-    elif kind == 1:
-        parts.append(part("flange", disc(2 * r, high - 0.02, high, style), color="flange"))
-        parts.append(part("blind flange", disc(2 * r, high + 0.002, high + 0.02, style), color="flange"))
-    elif kind == 2:
-        steps = np.linspace(0, np.pi / 2, max(3, style.round(r) // 4) + 1)
-        bend = np.column_stack([3 * r * (1 - np.cos(steps)), np.zeros(len(steps)), high + 3 * r * np.sin(steps)])
-        parts.append(part("elbow", torus_piece(bend, r, style.round(r), bore), color="pipe"))
-        arm = [(3 * r, 0.0, high + 3 * r), (3 * r + num(rng, 0.1, 1.0), 0.0, high + 3 * r)]
-        parts.append(part("pipe", torus_piece(arm, r, style.round(r), bore), color="pipe"))
-    return Model([Part(p.solid, p.name, p.color, p.bundle, pipe if p.name != "pipe" else "") for p in parts])
-
-
-def _fence(_: int, style: ModelingStyle, rng: np.random.Generator, gate: bool = False) -> Model:
-    """Posts with panels of bars, wires or sheet between them; a gate has a leaf with hinges and a latch that stands
-    off its posts, at times half open.
-    """
-    wide, high, r = num(rng, 0.9, 2.5), num(rng, 0.9, 2.2), num(rng, 0.015, 0.035)
-    n = min(style.round(r), 12)
-    bays = 1 if gate else int(rng.integers(1, 4))
-    parts = []
-    for k in range(bays + 1):
-        upright = moved(
-            extrude(circle(r, n) if chance(rng, 0.5) else rounded_rectangle(2 * r, 2 * r, 0), 0, 1.05 * high),
-            at(k * wide),
-        )
-        parts.append(part("post", upright, color="fence", bundle=""))
-    gap, name = (num(rng, 0.02, 0.06), "gate") if gate else (0.0, "fence")
-    for k in range(bays):
-        solids = _panel(wide - 2 * r - 2 * gap, high - 0.1, style, rng)
-        pose = at(k * wide + r + gap, 0, 0.08)
-        if gate:
-            solids.append(box((gap + r, r, 0.05), (-gap / 2, 0, 0.2 * high)))
-            solids.append(box((gap + r, r, 0.05), (-gap / 2, 0, 0.75 * high)))
-            solids.append(box((0.12, 2.5 * r, 0.03), (wide - 2 * r - 2 * gap, 0, 0.55 * high)))
-            pose = pose @ spun("z", pick(rng, 0.0, 0.0, num(rng, 0.2, 1.4)))
-        if chance(rng, 0.6):
-            parts.append(part(name, *(moved(one, pose) for one in solids), color=name, bundle=name))
-        else:
-            parts += [part(name, moved(one, pose), color=name, bundle=name) for one in solids]
-    return Model(parts)
-
-
-def _panel(w: float, h: float, style: ModelingStyle, rng: np.random.Generator) -> list[Solid]:
-    """A frame with bars, a sheet or slats in it, from the origin in x and z [m]."""
-    t = num(rng, 0.015, 0.03)
-    frame = [box((w, t, t), (w / 2, 0, z)) for z in (t / 2, h - t / 2)]
-    frame += [box((t, t, h), (x, 0, h / 2)) for x in (t / 2, w - t / 2)]
-    kind = int(rng.integers(4))
-    if kind == 0:
-        return [*frame, box((w, 0.2 * t, h), (w / 2, 0, h / 2))]
-    if kind == 1:
-        return [*frame, *(box((w, 0.4 * t, 0.08), (w / 2, 0, z)) for z in np.arange(0.1, h - 0.1, 0.14))]
-    bars = [cylinder(0.35 * t, 0.0, h, 6) for _ in np.arange(0.1, w - 0.05, 0.12)]
-    upright = [moved(one, at(0.1 + 0.12 * k)) for k, one in enumerate(bars)]
-    if kind == 2:
-        return [*frame, *upright]
-    return [*frame, *upright, *(lying(cylinder(0.3 * t, 0.0, w, 6), 0, 0, z) for z in np.arange(0.2, h - 0.1, 0.25))]
-
-
-def _block(_: int, style: ModelingStyle, rng: np.random.Generator, name: str = "foundation") -> Model:
-    """A box on the floor: a foundation; an upright one: a wall."""
-    if name == "wall":
-        size = (num(rng, 1.0, 5.0), num(rng, 0.08, 0.3), num(rng, 0.8, 3.0))
-    else:
-        size = (num(rng, 0.3, 2.5), num(rng, 0.3, 1.5), num(rng, 0.1, 0.6))
-    parts = [part(name, box(size, (0, 0, size[2] / 2)), color="concrete", bundle=name)]
-    if name == "foundation" and chance(rng, 0.4):
-        parts.append(_steel("base plate", box((0.3, 0.3, 0.02), (0, 0, size[2] + 0.01))))
-        outline, holes = _section(rng, 0.08, 0.2)
-        parts.append(
-            _steel("column", bar((0, 0, size[2] + 0.02), (0, 0, size[2] + num(rng, 0.4, 2.0)), outline, holes))
-        )
-    return Model(parts)
-
-
-def _caster(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
-    """A wheel in a fork of two plates under a top plate or on a stem, with a stop over it at times; four to a frame."""
-    r = num(rng, 0.03, 0.1)
-    wide, plate, n = 0.6 * r, 0.06 * r + 0.002, style.round(r)
-    top = 2.5 * r
-    wheel = moved(cylinder(r, -wide / 2, wide / 2, n), at(0, 0, r) @ spun("x", np.pi / 2))
-    fork = [
-        box((0.9 * r, plate, 1.7 * r), (0.1 * r, s * (wide / 2 + 1.2 * plate), 0.8 * r + 0.85 * r)) for s in (-1, 1)
-    ]
-    fork.append(box((1.1 * r, wide + 3.4 * plate, plate), (0.1 * r, 0, top)))
-    axle = moved(cylinder(0.15 * r, -0.7 * wide, 0.7 * wide, 8), at(0, 0, r) @ spun("x", np.pi / 2))
-    stem = chance(rng, 0.4)
-    head = (
-        moved(cylinder(0.25 * r, 0, 0.9 * r, n), at(0, 0, top))
-        if stem
-        else box((2 * r, 1.7 * r, plate), (0, 0, top + 1.3 * plate))
+    count: int = whole(3, 11, "treads")
+    wide: float = between(0.6, 1.2, "width", "m")
+    rise: float = between(0.15, 0.22, "of a step", "m")
+    going: float = between(0.2, 0.3, "of a step", "m")
+    blocks: bool = chance(0.3, "blocks that stand on the floor")
+    thick: tuple[float, ...] = several(
+        lambda rng, _: (0.03, 0.03, 0.05)[int(rng.integers(3))],
+        lambda p: p.count,
+        "thickness of each tread",
+        "m",
+        when=lambda p: not p.blocks,
     )
-    split, places = chance(rng, 0.6), [(0.0, 0.0)]
-    if chance(rng, 0.6):
-        places = [(x, y) for x in (0.0, 0.8) for y in (0.0, 0.5)]
-    parts = []
-    for x, y in places:
-        turn = at(x, y) @ spun("z", num(rng, 0, 6))
-        solids = [wheel, *fork, axle, head]
-        groups = [[wheel], fork, [axle], [head]] if split else [solids]
-        parts += [
-            part("caster", *(moved(one, turn) for one in some), color="rubber", bundle="caster") for some in groups
-        ]
-    if len(places) > 1:
-        high = top + (0.9 * r if stem else 1.8 * plate)
-        for y in (0.0, 0.5):
-            parts.append(_steel("skid frame", box((1.0, 0.06, 0.06), (0.4, y, high + 0.03)), bundle=""))
-    return Model(parts)
+    sides: tuple[_Stringer, ...] = several(
+        lambda rng, _: _Stringer.draw(rng), lambda _: 2, "its sides", when=lambda p: not p.blocks
+    )
+
+    def build(self, t: Table) -> Model:
+        rise, going, wide, count = self.rise, self.going, self.wide, self.count
+        for k in range(count):
+            high = (k + 1) * rise if self.blocks else self.thick[k]
+            tread = box((going, wide, high), (k * going, 0, (k + 1) * rise - high / 2))
+            t.bundled("stair tread").add("stair tread", tread)
+        end, far, rails = count * going, count * rise, t.bundled("railing")
+        for y, side in zip((-wide / 2 - 0.02, wide / 2 + 0.02), self.sides, strict=False):
+            stringer = rounded_rectangle(0.03, side.deep, 0.0)
+            t.add("beam", bar((-going / 2, y, 0.1), (end, y, far), stringer))
+            if side.railed:
+                rail = rod((-going / 2, y, 1.0), (end, y, far + 0.95), 0.02, min(t.n(0.02), 16))
+                rails.add("railing", rail)
+                for share in (0.1, 0.9):
+                    x, z = share * end, share * far + 0.1
+                    upright = rod((x, y, z), (x, y, z + 0.9), 0.018, min(t.n(0.018), 16))
+                    rails.add("post", upright, of="safety")
+        return t.model()
 
 
-_NAMES = ("platform", "grating")
+class PlainBars(_Steel, name="ladder/plain bars", label="ladder", bundle="ladder"):
+    """Two bars and rungs, upright, in one mesh or in single bars; hoops at times."""
 
-PRIMITIVE_STEEL: tuple[Family, ...] = (
-    family("frame/sharp sections", "floor", FRAME, _portal, "beam", (15,), 2.5),
-    family("beam/on posts", "floor", FRAME, _loose_beam, "beam", (15,)),
-    family("column/sharp section", "floor", FRAME, partial(_loose_beam, name="column"), "column", (15,)),
-    *(
-        family(f"{name}/on columns", "floor", FRAME, partial(_deck, name=name), name, (15,), grain="fitting")
-        for name in _NAMES
-    ),
-    family("railing/single bars", "floor", FRAME, _railing, "railing", (15,), 1.5),
-    family("stairs/boxes", "floor", FRAME, _stairs, "stair tread", (15,), 1.5, "fitting"),
-    family("ladder/plain bars", "floor", FRAME, _ladder, "ladder", (15,)),
-    family("post/plain upright", "floor", FRAME, _post, "post", (15,), 1.5, "fitting"),
-    family("pipe/plain upright", "floor", "Pipe assembly", partial(_post, name="pipe"), "pipe", (15,), 1.5, "fitting"),
-    family("fence/framed panel", "floor", FRAME, _fence, "fence", (15,), grain="fitting"),
-    family("gate/framed leaf", "floor", FRAME, partial(_fence, gate=True), "gate", (15,), grain="fitting"),
-    family("foundation/box", "floor", FRAME, _block, "foundation", (15,), grain="fitting"),
-    family("wall/box", "floor", FRAME, partial(_block, name="wall"), "wall", (15,)),
-    family("caster/fork of plates", "floor", FRAME, _caster, "caster", (15,), 0.7, "fitting"),
+    high: float = between(1.5, 5.0, "height", "m")
+    wide: float = between(0.35, 0.5, "between the bars", "m")
+    radius: float = between(0.008, 0.016, "of a rung", "m")
+    flat: bool = chance(0.5, "its bars are flat")
+    hooped: bool = chance(0.5, "hoops round it", when=lambda p: p.high > 2.5)
+    one: bool = chance(0.5, "all is one mesh")
+
+    def build(self, t: Table) -> Model:
+        high, half, r, n = self.high, self.wide / 2, self.radius, min(t.n(self.radius), 12)
+        solids = []
+        for y in (-half, half):
+            flat, round_ = box((0.06, 0.012, high), (0, y, high / 2)), moved(cylinder(1.5 * r, 0, high, n), at(0, y))
+            solids.append(flat if self.flat else round_)
+        solids += [rod((0, -half, z), (0, half, z), r, n) for z in np.arange(0.25, high - 0.1, 0.28)]
+        if self.hooped:
+            solids += [moved(torus(0.36, 0.015, 16, 4), at(0.36, 0, float(z))) for z in np.arange(2.2, high, 0.8)]
+        for some in [solids] if self.one else [[each] for each in solids]:
+            t.add("ladder", *some, of="steel")
+        return t.model()
+
+
+class PlainUpright(_Steel, name="post/plain upright", label="post", weight=1.5, grain="fitting"):
+    """An upright of closed round or square section, from knee high to several metres, on a plate or bare."""
+
+    high: float = spread(0.3, 5.0, "height", "m")
+    radius: float = between(0.02, 0.09, "half its width", "m")
+    square: bool = chance(0.4, "its section is square")
+    foot: _Foot = nested(_Foot, "foot")
+    topped: bool = chance(0.3, "a plate on top")
+
+    def build(self, t: Table) -> Model:
+        high, r = self.high, self.radius
+        square = extrude(rounded_rectangle(2 * r, 2 * r, 0.0), 0.0, high)
+        t.add("post", square if self.square else disc(r, 0.0, high, t.style))
+        self.foot.build(t, 1.6 * r)
+        if self.topped:
+            t.add("plate", box((4 * r, 4 * r, 0.01), (0, 0, high + 0.005)))
+        return t.model()
+
+
+class PipeUpright(
+    Device, name="pipe/plain upright", group="Pipe assembly", label="pipe", sizes=(15,), weight=1.5, grain="fitting"
+):
+    """An upright pipe, from knee high to several metres: with an elbow's start, a flange or a cap on top, or bare."""
+
+    high: float = spread(0.3, 5.0, "height", "m")
+    radius: float = between(0.02, 0.09, "radius", "m")
+    end: str = among(("cap", "flange", "elbow", "bare"), "what is on top")
+    arm: float = between(0.1, 1.0, "length of the pipe behind the elbow", "m", when=lambda p: p.end == "elbow")
+
+    def build(self, t: Table) -> Model:
+        high, r, n, style = self.high, self.radius, t.n(self.radius), t.style
+        bore = 0.88 * r if style.hollow else 0.0
+        t.bundled("pipe").add("pipe", torus_piece([(0.0, 0.0, 0.0), (0.0, 0.0, high)], r, n, bore))
+        if self.end == "cap":
+            t.add("pipe cap", disc(1.1 * r, high, high + 0.8 * r, style))
+        elif self.end == "flange":
+            t.add("flange", disc(2 * r, high - 0.02, high, style))
+            t.add("blind flange", disc(2 * r, high + 0.002, high + 0.02, style))
+        elif self.end == "elbow":
+            steps = np.linspace(0, np.pi / 2, max(3, n // 4) + 1)
+            bend = np.column_stack([3 * r * (1 - np.cos(steps)), np.zeros(len(steps)), high + 3 * r * np.sin(steps)])
+            t.add("elbow", torus_piece(bend, r, n, bore))
+            arm = [(3 * r, 0.0, high + 3 * r), (3 * r + self.arm, 0.0, high + 3 * r)]
+            t.add("pipe", torus_piece(arm, r, n, bore))
+        return t.model()
+
+
+class _Panel(Params):
+    """A frame with bars, a sheet or slats in it."""
+
+    bar: float = between(0.015, 0.03, "width of the frame's bars", "m")
+    form: str = among(("sheet", "slats", "bars", "mesh"), "what is in it")
+
+    def solids(self, w: float, h: float) -> list[Solid]:
+        """Its solids, from the origin in x and z, of a width and a height [m]."""
+        b = self.bar
+        frame = [box((w, b, b), (w / 2, 0, z)) for z in (b / 2, h - b / 2)]
+        frame += [box((b, b, h), (x, 0, h / 2)) for x in (b / 2, w - b / 2)]
+        if self.form == "sheet":
+            return [*frame, box((w, 0.2 * b, h), (w / 2, 0, h / 2))]
+        if self.form == "slats":
+            return [*frame, *(box((w, 0.4 * b, 0.08), (w / 2, 0, z)) for z in np.arange(0.1, h - 0.1, 0.14))]
+        count = len(np.arange(0.1, w - 0.05, 0.12))
+        frame += [moved(cylinder(0.35 * b, 0.0, h, 6), at(0.1 + 0.12 * k)) for k in range(count)]
+        if self.form == "bars":
+            return frame
+        return [*frame, *(lying(cylinder(0.3 * b, 0.0, w, 6), 0, 0, z) for z in np.arange(0.2, h - 0.1, 0.25))]
+
+
+class _Bay(Params):
+    """A panel between two posts."""
+
+    leaf: bool = given(False, "it is the leaf of a gate")
+    panel: _Panel = nested(_Panel, "panel")
+    ajar: float = between(0.2, 1.4, "how far a leaf is open", "rad", when=lambda p: p.leaf)
+    open_: bool = among((False, False, True), "the leaf is open", when=lambda p: p.leaf, otherwise=False)
+    one: bool = chance(0.6, "it is one mesh")
+
+
+class FramedPanel(_Steel, name="fence/framed panel", label="fence", grain="fitting"):
+    """Posts with panels of bars, wires or sheet between them."""
+
+    leaf: ClassVar[bool] = False
+
+    wide: float = between(0.9, 2.5, "from post to post", "m")
+    high: float = between(0.9, 2.2, "height of a panel", "m")
+    radius: float = between(0.015, 0.035, "half the width of a post", "m")
+    count: int = whole(1, 3, "panels")
+    round_: tuple[bool, ...] = several(
+        lambda rng, _: bool(rng.random() < 0.5), lambda p: p.count + 1, "whether each post is round"
+    )
+    gap: float = given(0.0, "between a leaf and its posts", "m")
+    bays: tuple[_Bay, ...] = several(
+        lambda rng, _: _Bay.draw(rng, {"leaf": False}), lambda p: p.count, "what is between the posts"
+    )
+
+    def build(self, t: Table) -> Model:
+        wide, high, r, gap, n = self.wide, self.high, self.radius, self.gap, min(t.n(self.radius), 12)
+        for k, is_round in enumerate(self.round_):
+            edge = circle(r, n) if is_round else rounded_rectangle(2 * r, 2 * r, 0)
+            t.at(k * wide).add("post", extrude(edge, 0, 1.05 * high), of="fence")
+        across = wide - 2 * r - 2 * gap
+        for k, bay in enumerate(self.bays):
+            solids, pose = bay.panel.solids(across, high - 0.1), at(k * wide + r + gap, 0, 0.08)
+            if self.leaf:
+                hinge = (gap + r, r, 0.05)
+                solids += [box(hinge, (-gap / 2, 0, share * high)) for share in (0.2, 0.75)]
+                solids.append(box((0.12, 2.5 * r, 0.03), (across, 0, 0.55 * high)))
+                pose = pose @ spun("z", bay.ajar if bay.open_ else 0.0)
+            there = t.moved(pose).bundled(self.label)
+            for some in [solids] if bay.one else [[each] for each in solids]:
+                there.add(self.label, *some)
+        return t.model()
+
+
+class FramedLeaf(FramedPanel, name="gate/framed leaf", label="gate"):
+    """A gate: a leaf with hinges and a latch that stands off its two posts, at times half open."""
+
+    leaf = True
+
+    count: int = among((1,), "leaves")
+    gap: float = between(0.02, 0.06, "between the leaf and its posts", "m")
+    bays: tuple[_Bay, ...] = several(
+        lambda rng, _: _Bay.draw(rng, {"leaf": True}), lambda p: p.count, "what is between the posts"
+    )
+
+
+class FoundationBox(_Steel, name="foundation/box", label="foundation", grain="fitting"):
+    """A box on the floor, at times with a column on it."""
+
+    length: float = between(0.3, 2.5, "length", "m")
+    wide: float = between(0.3, 1.5, "width", "m")
+    high: float = between(0.1, 0.6, "height", "m")
+    column: bool = chance(0.4, "a column on a plate on it")
+    section: _Section = _section(0.08, 0.2, when=lambda p: p.column)
+    tall: float = between(0.4, 2.0, "height of the column", "m", when=lambda p: p.column)
+
+    def build(self, t: Table) -> Model:
+        high = self.high
+        block = box((self.length, self.wide, high), (0, 0, high / 2))
+        t.bundled("foundation").add("foundation", block)
+        if self.column:
+            t.add("base plate", box((0.3, 0.3, 0.02), (0, 0, high + 0.01)))
+            t.add("column", bar((0, 0, high + 0.02), (0, 0, high + self.tall), *self.section.outline))
+        return t.model()
+
+
+class WallBox(_Steel, name="wall/box", label="wall", bundle="wall"):
+    """An upright box on the floor: a wall."""
+
+    length: float = between(1.0, 5.0, "length", "m")
+    thick: float = between(0.08, 0.3, "thickness", "m")
+    high: float = between(0.8, 3.0, "height", "m")
+
+    def build(self, t: Table) -> Model:
+        t.add("wall", box((self.length, self.thick, self.high), (0, 0, self.high / 2)))
+        return t.model()
+
+
+class ForkOfPlates(_Steel, name="caster/fork of plates", label="caster", weight=0.7, grain="fitting"):
+    """A wheel in a fork of two plates under a top plate or on a stem, with a stop over it at times; four to a frame."""
+
+    radius: float = between(0.03, 0.1, "of the wheel", "m")
+    stemmed: bool = chance(0.4, "a stem, not a top plate")
+    split: bool = chance(0.6, "wheel, fork, axle and head are meshes of their own")
+    framed: bool = chance(0.6, "four under a frame")
+    turns: tuple[float, ...] = several(
+        lambda rng, _: float(rng.uniform(0, 6)), lambda p: 4 if p.framed else 1, "which way each looks", "rad"
+    )
+
+    def build(self, t: Table) -> Model:
+        r = self.radius
+        wide, plate, n, top = 0.6 * r, 0.06 * r + 0.002, t.n(r), 2.5 * r
+        on_axle = at(0, 0, r) @ spun("x", np.pi / 2)
+        wheel = moved(cylinder(r, -wide / 2, wide / 2, n), on_axle)
+        cheeks = [box((0.9 * r, plate, 1.7 * r), (0.1 * r, s * (wide / 2 + 1.2 * plate), 1.65 * r)) for s in _BOTH]
+        fork = [*cheeks, box((1.1 * r, wide + 3.4 * plate, plate), (0.1 * r, 0, top))]
+        axle = moved(cylinder(0.15 * r, -0.7 * wide, 0.7 * wide, 8), on_axle)
+        head = box((2 * r, 1.7 * r, plate), (0, 0, top + 1.3 * plate))
+        if self.stemmed:
+            head = moved(cylinder(0.25 * r, 0, 0.9 * r, n), at(0, 0, top))
+        places = [(x, y) for x in (0.0, 0.8) for y in (0.0, 0.5)] if self.framed else [(0.0, 0.0)]
+        for (x, y), turn in zip(places, self.turns, strict=True):
+            there = t.at(x, y).spun("z", turn).bundled("caster")
+            for some in [[wheel], fork, [axle], [head]] if self.split else [[wheel, *fork, axle, head]]:
+                there.add("caster", *some)
+        high = top + (0.9 * r if self.stemmed else 1.8 * plate)
+        for y in (0.0, 0.5) if self.framed else ():
+            t.add("skid frame", box((1.0, 0.06, 0.06), (0.4, y, high + 0.03)))
+        return t.model()
+
+
+PRIMITIVE_STEEL: tuple[Family, ...] = families_of(
+    SharpFrame,
+    BeamOnPosts,
+    SharpColumn,
+    DeckOnColumns,
+    GratingOnColumns,
+    SingleBars,
+    Boxes,
+    PlainBars,
+    PlainUpright,
+    PipeUpright,
+    FramedPanel,
+    FramedLeaf,
+    FoundationBox,
+    WallBox,
+    ForkOfPlates,
 )
