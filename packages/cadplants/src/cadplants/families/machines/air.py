@@ -15,8 +15,8 @@ from cadplants.families.machines.machinery import (
     motor,
     mouth,
     slab,
+    train,
 )
-from cadplants.families.machines.rotary import train
 from cadplants.family import Family, Model, Part, placed
 from cadplants.mesh_ops import Solid, extrude, merge, moved
 from cadplants.modeling_style import ModelingStyle

@@ -14,9 +14,9 @@ from cadplants.families.machines.machinery import (
     dead_room,
     motor,
     mouth,
+    train,
     volute,
 )
-from cadplants.families.machines.rotary import train
 from cadplants.families.valves.valve import disc_flange, flanged_body
 from cadplants.family import Family, Model, Part, placed
 from cadplants.flange import plate_thickness

@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from cadplants.families.chance import pick
-from cadplants.families.machines.machinery import PUMP, base, dead_room, foreign, motor, mouth, volute
-from cadplants.families.machines.rotary import train
+from cadplants.families.machines.machinery import PUMP, base, dead_room, foreign, motor, mouth, train, volute
 from cadplants.family import Family, Model, Part, placed
 from cadplants.mesh_ops import extrude, merge, moved
 from cadplants.modeling_style import ModelingStyle

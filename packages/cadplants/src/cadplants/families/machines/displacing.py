@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from cadplants.families.chance import pick
-from cadplants.families.machines.machinery import BASES, CASING, LYING, PUMP, base, dead_room, motor, mouth
-from cadplants.families.machines.rotary import train
+from cadplants.families.machines.machinery import BASES, CASING, LYING, PUMP, base, dead_room, motor, mouth, train
 from cadplants.families.valves.valve import bolt_circle
 from cadplants.family import Family, Model, Part, placed
 from cadplants.mesh_ops import extrude, merge, moved
