@@ -141,9 +141,12 @@ class Magnetic(Pump, name="pump/magnetic drive", sizes=(20, 25, 32, 40, 50, 65))
             far = back + length
             self._can(level, r, back, far, n)
         else:
-            bell = outline(1.2, 0, 1.2, 0.12, 1, 0.15, 1, 0.9, 1.0925, 0.95, 1.0925, 1.05)
-            level.at(back).along("x").add(CASING, turned([(a * r, b * r) for a, b in bell], n), of="rubber")
-            self.motor.build(level.at(back + 1.05 * r).moved(LYING), 0.95 * r, length)
+            m = 0.95 * r
+            bell = outline(
+                1.2 * r, 0, 1.2 * r, 0.12 * r, r, 0.15 * r, r, 0.9 * r, 1.15 * m, 0.95 * r, 1.15 * m, 1.05 * r
+            )
+            level.at(back).along("x").add(CASING, turned(bell, n), of="rubber")
+            self.motor.build(level.at(back + 1.05 * r).moved(LYING), m, length)
             far = back + 1.05 * r + 0.8 * length
         for x, name in ((0.0, CASING), (0.75 * far, "motor")):
             leg = box((0.25 * r, 1.5 * r, axis - 0.7 * r - seat), (x, 0, (seat + axis - 0.7 * r) / 2))
