@@ -10,7 +10,7 @@ import numpy as np
 from cadgraph.model.scene import Floats
 from cadplants.families.chance import pick
 from cadplants.families.valves.valve import disc_flange
-from cadplants.family import Part, Port
+from cadplants.family import Part, Port, placed
 from cadplants.flange import nut_room, plate_thickness
 from cadplants.mesh_ops import Solid, about_x, extrude, merge, moved
 from cadplants.modeling_style import ModelingStyle
@@ -46,6 +46,7 @@ __all__ = [
     "motor",
     "mouth",
     "slab",
+    "train",
     "volute",
 ]
 
@@ -421,3 +422,16 @@ def anchors(places: Sequence[tuple[float, float]], seat: float, size: float = 0.
     """Foundation bolts through what lies on a seat, washers and nuts at a height [m]."""
     one = merge([cylinder(size / 2, seat - 0.03, seat + 2.2 * size, 8), hexagon(1.7 * size, seat, seat + 0.8 * size)])
     return [Part(moved(one, at(x, y)), "bolt", "fastener", "", "Connection assembly", True) for x, y in places]
+
+
+def train(
+    x: float, axis: float, seat: float, r: float, style: ModelingStyle, rng: np.random.Generator, kind: str = ""
+) -> tuple[list[Part], float, list[float]]:
+    """Coupling, guard and motor behind a machine's shaft that ends at ``x``; where the motor ends; seats along x."""
+    gap = float(rng.uniform(0.7, 1.4)) * r
+    far, length = x + gap, float(rng.uniform(2.5, 3.6)) * r
+    parts = [coupling(0.42 * r, x + 0.02 * gap, far - 0.05 * gap, axis, style)]
+    if rng.random() < 0.85:
+        parts.append(guard(pick(rng, *GUARDS), 0.56 * r, x + 0.04 * gap, far - 0.04 * gap, axis, seat, style))
+    parts += placed(motor(r, length, style, rng, axis - seat, kind), at(far, 0, axis) @ LYING)
+    return parts, far + length, [x + gap / 2, far + 0.2 * length, far + 0.66 * length]
