@@ -2,375 +2,595 @@
 
 from __future__ import annotations
 
-from functools import partial
+from collections.abc import Callable
+from typing import Any, ClassVar
 
 import numpy as np
 
-from cadgraph.model.scene import Floats
-from cadplants.families.chance import chance, num, pick
-from cadplants.families.primitive.shape import (
-    FRAME,
-    cone,
-    disc,
-    dish,
-    family,
-    lying,
-    part,
-    pipe_piece,
-    sized,
-    snout,
-    vessel,
-)
-from cadplants.family import Family, Model, Part, Port
-from cadplants.mesh_ops import Solid, merge, moved
+from cadplants.builder.device import Device, families_of
+from cadplants.builder.params import Params, Source, among, between, chance, given, nested, several, whole
+from cadplants.builder.table import Table
+from cadplants.families.primitive.shape import Snout, cone, disc, dish, lying, pipe_piece, sized, vessel
+from cadplants.family import Family, Model, Port
+from cadplants.mesh_ops import Solid, moved
 from cadplants.modeling_style import ModelingStyle
 from cadplants.primitives import box, cylinder
-from cadplants.standards import FLANGES, PIPES, smaller
+from cadplants.standards import PIPES, smaller
 from cadplants.transforms import at, looking, spun
 
 __all__ = ["PRIMITIVE_MACHINES"]
 
-_PUMP, _TANK, _EQUIPMENT = "Pump unit", "Tank", "Equipment"
+
+def _snout(dn: Callable[[Any], int], about: str) -> Snout:
+    return nested(lambda s, p: Snout.draw(s, {"dn": dn(p)}), about)
 
 
-def _turned(pose: Floats, parts: list[Part]) -> list[Part]:
-    return [Part(moved(p.solid, pose), p.name, p.color, p.bundle, p.group, p.fine) for p in parts]
+class _Motor(Params):
+    """A motor: a cylinder, with a narrower end, a dish or neither."""
+
+    narrowed: bool = chance(0.4, "a narrower end")
+    domed: bool = chance(0.35, "a dish at its end")
+
+    def solids(self, r: float, length: float, style: ModelingStyle) -> list[Solid]:
+        """About z from 0 up [m]."""
+        solids = [disc(r, 0.0, length, style)]
+        if self.narrowed:
+            solids.append(disc(0.85 * r, length, 1.12 * length, style))
+        if self.domed:
+            solids.append(dish(r, 0.3 * r, length, style))
+        return solids
 
 
-def _foundation(size: tuple[float, float], high: float) -> Part:
-    """A block under something, below z = 0 [m]."""
-    return part("foundation", box((*size, high), (0, 0, -high / 2)), color="concrete", group=FRAME)
+class _Pump(Device, group="Pump unit", label="pump", bundle="pump casing"):
+    """A pump of primitives."""
 
 
-def _motor(r: float, length: float, style: ModelingStyle, rng: np.random.Generator) -> list[Solid]:
-    """A motor about z from 0 up: a cylinder, with a narrower end, a box on its side or neither [m]."""
-    solids = [disc(r, 0.0, length, style)]
-    if chance(rng, 0.4):
-        solids.append(disc(0.85 * r, length, 1.12 * length, style))
-    if chance(rng, 0.35):
-        solids.append(dish(r, 0.3 * r, length, style))
-    return solids
-
-
-def _end_suction(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class CylindersAndBoxes(_Pump, name="pump/cylinders and boxes", sizes=sized(40, 150), weight=4):
     """A pump along x on a base: a flat cylinder or a box with two snouts, a motor, something between them."""
-    out, volute = smaller(dn), PIPES[dn].radius * num(rng, 1.8, 2.6) + 0.03
-    axis, reach, rise = volute + num(rng, 0.12, 0.3), volute * num(rng, 0.8, 1.4) + 0.05, volute + num(rng, 0.1, 0.2)
-    radius, length = volute * num(rng, 0.6, 1.0), volute * num(rng, 1.8, 3.0)
-    thick = volute * num(rng, 0.35, 0.6)
-    level = at(0, 0, axis)
-    casing = [lying(disc(volute, -thick, thick, style))]
-    if chance(rng, 0.25):
+
+    volute: float = between(1.8, 2.6, "(radius of the casing - 30 mm) / of the suction pipe")
+    lift: float = between(0.12, 0.3, "height of the casing's underside", "m")
+    reach: float = between(0.8, 1.4, "(reach of the suction - 50 mm) / radius of the casing")
+    rise: float = between(0.1, 0.2, "of the discharge over the casing", "m")
+    radius: float = between(0.6, 1.0, "radius of the motor / of the casing")
+    length: float = between(1.8, 3.0, "length of the motor / radius of the casing")
+    thick: float = between(0.35, 0.6, "half the thickness of the casing / its radius")
+    boxed: bool = chance(0.25, "the casing is a box")
+    coned: bool = chance(0.3, "a cone behind the casing", when=lambda p: not p.boxed)
+    suction: Snout = _snout(lambda p: p.dn, "suction")
+    discharge: Snout = _snout(lambda p: smaller(p.dn), "discharge")
+    apart: float = between(0.2, 0.5, "from casing to motor / length of the motor")
+    shaft: float = between(0.15, 0.35, "radius of the shaft / of the motor")
+    guarded: bool = chance(0.4, "a guard over the coupling")
+    motor: _Motor = nested(_Motor, "motor")
+    wired: bool = chance(0.4, "a terminal box")
+    low: float = between(0.05, 0.12, "height of the base", "m")
+    founded: bool = chance(0.5, "a foundation")
+    deep: float = between(0.1, 0.4, "depth of the foundation", "m", when=lambda p: p.founded)
+
+    def build(self, t: Table) -> Model:
+        style, low, volute = t.style, self.low, t.pipe.radius * self.volute + 0.03
+        axis, reach, rise = volute + self.lift, volute * self.reach + 0.05, volute + self.rise
+        radius, length, thick = volute * self.radius, volute * self.length, volute * self.thick
         casing = [box((2 * thick, 1.8 * volute, 1.8 * volute))]
-    elif chance(rng, 0.3):
-        casing.append(lying(cone(volute, 0.4 * volute, thick, 2.2 * thick, style)))
-    suction = moved(snout(dn, 0.0, reach, style, rng), spun("y", -np.pi / 2))
-    discharge = snout(out, 0.0, rise, style, rng)
-    parts = [part("pump casing", *casing, suction, discharge, color="pump", bundle="pump casing")]
-    start = thick + length * num(rng, 0.2, 0.5)
-    shaft = lying(disc(radius * num(rng, 0.15, 0.35), 0.5 * thick, start, style))
-    parts.append(part("shaft", shaft, color="trim", bundle="pump casing"))
-    if chance(rng, 0.4):
-        guard = box((0.7 * (start - thick), 0.9 * radius, 0.9 * radius), ((start + thick) / 2, 0, 0))
-        parts.append(part("coupling guard", guard, color="safety", bundle="pump casing"))
-    motor = [lying(one, start) for one in _motor(radius, length, style, rng)]
-    parts.append(part("motor", *motor, color="motor", bundle="motor"))
-    if chance(rng, 0.4):
-        side = box((0.3 * length, 0.5 * radius, 0.5 * radius), (start + 0.5 * length, 0, 1.1 * radius))
-        parts.append(part("terminal box", side, color="motor", bundle="motor"))
-    parts = _turned(level, parts)
-    left, right = -1.2 * thick, start + length
-    low = num(rng, 0.05, 0.12)
-    feet = [box((1.6 * thick, volute, axis - low), (0, 0, (axis + low) / 2))]
-    feet.append(box((0.6 * length, 1.4 * radius, axis - low), (start + 0.5 * length, 0, (axis + low) / 2)))
-    base = [box((right - left + 0.1, 2.2 * radius + 0.1, low), ((left + right) / 2, 0, low / 2)), *feet]
-    parts.append(part("pump base", *base, color="steel", bundle="pump base"))
-    if chance(rng, 0.5):
-        block = _foundation((right - left + 0.3, 2.4 * radius + 0.3), num(rng, 0.1, 0.4))
-        parts.append(Part(moved(block.solid, at((left + right) / 2)), "foundation", "concrete", "", FRAME))
-    ports = (
-        Port(looking((-reach, 0, axis), (-1, 0, 0)), dn),
-        Port(looking((0, 0, axis + rise), (0, 0, 1)), out),
-    )
-    return Model(parts, ports=ports, kind="centrifugal pump")
+        if not self.boxed:
+            casing = [lying(disc(volute, -thick, thick, style))]
+        if self.coned:
+            casing.append(lying(cone(volute, 0.4 * volute, thick, 2.2 * thick, style)))
+        casing.append(moved(self.suction.solid(0.0, reach, style), spun("y", -np.pi / 2)))
+        casing.append(self.discharge.solid(0.0, rise, style))
+        level = t.at(0, 0, axis)
+        level.add("pump casing", *casing)
+        start = thick + length * self.apart
+        level.add("shaft", lying(disc(radius * self.shaft, 0.5 * thick, start, style)))
+        if self.guarded:
+            guard = (0.7 * (start - thick), 0.9 * radius, 0.9 * radius)
+            level.add("coupling guard", box(guard, ((start + thick) / 2, 0, 0)))
+        motor = [lying(one, start) for one in self.motor.solids(radius, length, style)]
+        level.bundled("motor").add("motor", *motor)
+        if self.wired:
+            side = box((0.3 * length, 0.5 * radius, 0.5 * radius), (start + 0.5 * length, 0, 1.1 * radius))
+            level.bundled("motor").add("terminal box", side)
+        left, right = -1.2 * thick, start + length
+        plate = box((right - left + 0.1, 2.2 * radius + 0.1, low), ((left + right) / 2, 0, low / 2))
+        feet = [box((1.6 * thick, volute, axis - low), (0, 0, (axis + low) / 2))]
+        feet.append(box((0.6 * length, 1.4 * radius, axis - low), (start + 0.5 * length, 0, (axis + low) / 2)))
+        t.bundled("pump base").add("pump base", plate, *feet)
+        if self.founded:
+            size = (right - left + 0.3, 2.4 * radius + 0.3, self.deep)
+            t.at((left + right) / 2).add("foundation", box(size, (0, 0, -self.deep / 2)))
+        ports = (
+            Port(looking((-reach, 0, axis), (-1, 0, 0)), self.dn),
+            Port(looking((0, 0, axis + rise), (0, 0, 1)), self.discharge.dn),
+        )
+        return t.model(kind="centrifugal pump", ports=ports)
 
 
-def _inline_pump(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class MotorOnLine(_Pump, name="pump/motor on line", place="inline", sizes=sized(15, 150), weight=0.8):
     """A cylinder or ball-like cone in the line with a motor upright or level on it."""
-    r, length = PIPES[dn].radius, round(FLANGES[dn].outer * num(rng, 1.2, 2.0), 6)
-    wide = r * num(rng, 1.3, 2.0)
-    casing = [lying(disc(r, 0.0, length, style)), moved(disc(wide, -0.8 * r, 1.1 * r, style), at(length / 2))]
-    motor = _motor(wide * num(rng, 0.6, 0.95), wide * num(rng, 1.5, 3.0) + 0.05, style, rng)
-    pose = at(length / 2, 0, r) @ spun("x", pick(rng, 0.0, 0.0, 0.5) * np.pi)
-    parts = [part("pump casing", *casing, color="pump", bundle="pump casing")]
-    parts.append(part("motor", *(moved(one, pose) for one in motor), color="motor", bundle="motor"))
-    return Model(parts, length, pick(rng, "flanged", "welded") if dn <= 50 else "flanged", "circulator")
+
+    length: float = between(1.2, 2.0, "face to face / outside of the flange")
+    wide: float = between(1.3, 2.0, "radius of the casing / of the pipe")
+    radius: float = between(0.6, 0.95, "radius of the motor / of the casing")
+    tall: float = between(1.5, 3.0, "(length of the motor - 50 mm) / radius of the casing")
+    motor: _Motor = nested(_Motor, "motor")
+    tilt: float = among((0.0, 0.0, 0.5), "of the motor from upright / half a turn")
+    joint: str = among(("flanged", "welded"), "how it sits in its line", when=lambda p: p.dn <= 50, otherwise="flanged")
+
+    def build(self, t: Table) -> Model:
+        r, length, style = t.pipe.radius, round(t.flange.outer * self.length, 6), t.style
+        wide = r * self.wide
+        middle = moved(disc(wide, -0.8 * r, 1.1 * r, style), at(length / 2))
+        t.add("pump casing", lying(disc(r, 0.0, length, style)), middle)
+        motor = self.motor.solids(wide * self.radius, wide * self.tall + 0.05, style)
+        t.bundled("motor").at(length / 2, 0, r).spun("x", self.tilt * np.pi).add("motor", *motor)
+        return t.model(length, self.joint, "circulator")
 
 
-def _small_pump(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class BoxAndCylinder(_Pump, name="pump/box and cylinder"):
     """A box with a cylinder on or beside it: a dosing or gear pump."""
-    a, b, c = num(rng, 0.15, 0.4), num(rng, 0.12, 0.3), num(rng, 0.15, 0.4)
-    body = box((a, b, c), (0, 0, c / 2))
-    r = 0.35 * b
-    side = lying(disc(r, a / 2, a / 2 + num(rng, 0.1, 0.3), style), 0, 0, 0.5 * c)
-    top = moved(disc(r, 0.0, num(rng, 0.1, 0.3), style), at(0, 0, c))
-    parts = [part("pump casing", body, side, color="pump", bundle="pump casing")]
-    parts.append(part("motor", top, color="motor", bundle="motor"))
-    base = box((a + 0.1, b + 0.1, 0.04), (0, 0, -0.02))
-    return Model([*parts, part("pump base", base, color="steel", bundle="pump base")], kind="dosing pump")
+
+    length: float = between(0.15, 0.4, "of the box", "m")
+    wide: float = between(0.12, 0.3, "of the box", "m")
+    high: float = between(0.15, 0.4, "of the box", "m")
+    side: float = between(0.1, 0.3, "length of the cylinder beside it", "m")
+    top: float = between(0.1, 0.3, "height of the cylinder on it", "m")
+
+    def build(self, t: Table) -> Model:
+        a, b, c, style = self.length, self.wide, self.high, t.style
+        r = 0.35 * b
+        side = lying(disc(r, a / 2, a / 2 + self.side, style), 0, 0, 0.5 * c)
+        t.add("pump casing", box((a, b, c), (0, 0, c / 2)), side)
+        t.bundled("motor").add("motor", moved(disc(r, 0.0, self.top, style), at(0, 0, c)))
+        t.bundled("pump base").add("pump base", box((a + 0.1, b + 0.1, 0.04), (0, 0, -0.02)))
+        return t.model(kind="dosing pump")
 
 
-def _nozzle(dn: int, pose: Floats, low: float, face: float, style: ModelingStyle, rng: np.random.Generator) -> Part:
-    """A nozzle of a vessel: a snout along the x axis of a frame from ``low`` to ``face`` [m]."""
-    solid = moved(lying(snout(dn, low, face, style, rng)), pose)
-    return part("nozzle", solid, color="tank", bundle="nozzle")
+# --- vessels ---
 
 
-def _manway(radius: float, rise: float, style: ModelingStyle, rng: np.random.Generator) -> Part:
-    """A wide short neck with a lid about z on z = 0; a davit or a handle on it, or neither [m]."""
-    rim, thick = 1.25 * radius, 0.1 * radius
-    solids = [disc(radius, -0.3 * rise, rise, style), disc(rim, rise - thick, rise, style)]
-    gap = pick(rng, 0.0, 0.0, 0.003)
-    solids.append(disc(rim, rise + gap, rise + gap + thick, style))
-    kind = int(rng.integers(3))
-    if kind == 1:
-        solids.append(cylinder(0.06 * radius, rise, rise + radius, 8))
-        solids[-1] = moved(solids[-1], at(1.3 * radius))
-        solids.append(box((1.4 * radius, 0.1 * radius, 0.1 * radius), (0.65 * radius, 0, rise + radius)))
-    elif kind == 2:
-        solids.append(box((0.8 * radius, 0.08 * radius, 0.2 * radius), (0, 0, rise + gap + 1.5 * thick)))
-    return part("manway", *solids, color="tank", bundle="manway")
+class _Manway(Params):
+    """A wide short neck with a lid; a davit or a handle on it, or neither."""
+
+    gap: float = among((0.0, 0.0, 0.003), "under the lid", "m")
+    form: str = among(("plain", "davit", "handle"), "what is on the lid")
+
+    def build(self, t: Table, radius: float, rise: float) -> None:
+        """Puts it down about z on z = 0 [m]."""
+        rim, thick, style = 1.25 * radius, 0.1 * radius, t.style
+        top = rise + self.gap
+        solids = [disc(radius, -0.3 * rise, rise, style), disc(rim, rise - thick, rise, style)]
+        solids.append(disc(rim, top, top + thick, style))
+        if self.form == "davit":
+            solids.append(moved(cylinder(0.06 * radius, rise, rise + radius, 8), at(1.3 * radius)))
+            solids.append(box((1.4 * radius, 0.1 * radius, 0.1 * radius), (0.65 * radius, 0, rise + radius)))
+        elif self.form == "handle":
+            solids.append(box((0.8 * radius, 0.08 * radius, 0.2 * radius), (0, 0, top + 1.5 * thick)))
+        t.bundled("manway").add("manway", *solids)
 
 
-def _upright(_: int, style: ModelingStyle, rng: np.random.Generator, kind: str = "tank") -> Model:
+class _Leg(Params):
+    """A leg of an upright vessel."""
+
+    square: bool = chance(0.6, "it is square")
+    plated: bool = chance(0.3, "a plate at its foot")
+
+
+class _Stand(Params):
+    """What an upright vessel stands on: a skirt, three or four legs, or a block."""
+
+    thin: bool = given(False, "the vessel is an apparatus")
+    form: str = among(lambda p: ("legs" if p.thin else "skirt", "legs", "block"), "what it stands on")
+    flare: float = among((1.0, 1.15), "foot of the skirt / vessel", when=lambda p: p.form == "skirt", otherwise=0.0)
+    count: int = whole(3, 4, "legs", when=lambda p: p.form == "legs")
+    legs: tuple[_Leg, ...] = several(
+        lambda rng, _: _Leg.draw(rng), lambda p: p.count, "its legs", when=lambda p: p.form == "legs"
+    )
+
+    def build(self, t: Table, radius: float, low: float) -> None:
+        """Puts it down under a vessel whose shell begins at a height [m]."""
+        style, size = t.style, max(0.03, 0.09 * radius)
+        if self.form == "skirt":
+            foot = radius * self.flare
+            t.bundled("skirt").add("skirt", cone(foot, radius, 0.0, low, style), disc(1.15 * foot, 0.0, 0.02, style))
+        elif self.form == "block":
+            t.add("foundation", box((2.2 * radius, 2.2 * radius, 0.95 * low), (0, 0, 0.475 * low)))
+        name = "column" if self.thin else "tank leg"
+        for k, leg in enumerate(self.legs):
+            there = t.spun("z", 2 * np.pi * k / self.count).at(0.92 * radius)
+            square = box((size, size, 1.2 * low), (0, 0, 0.6 * low))
+            upright = square if leg.square else disc(0.6 * size, 0, 1.2 * low, style)
+            there.bundled(name).add(name, upright, own=not self.thin)
+            if leg.plated:
+                there.add("base plate", box((2 * size, 2 * size, 0.012), (0, 0, 0.006)))
+
+
+class _SideNozzle(Params):
+    """A nozzle at the side of an upright vessel."""
+
+    wide: bool = given(False, "the vessel is a wide one")
+    dn: int = among(lambda p: (25, 40, 50, 80) if p.wide else (15, 25, 40), "nominal size", "mm")
+    turn: float = between(0, 1.5, "where it is, besides 2.1 rad from one to the next", "rad")
+    high: float = between(0.1, 0.9, "its height / of the shell")
+    reach: float = between(0.08, 0.2, "of its face beyond the shell", "m")
+    snout: Snout = _snout(lambda p: p.dn, "nozzle")
+
+
+class _Vessel(Device):
+    """A vessel of primitives."""
+
+    def nozzle(self, t: Table, snout: Snout, low: float, face: float) -> Port:
+        """Puts a nozzle down along x; the port at its face [m]."""
+        name = "nozzle" if self.label == "tank" else self.label
+        t.bundled(name).add(name, lying(snout.solid(low, face, t.style)), of="tank")
+        return Port(t.frame @ at(face), snout.dn, len(t.parts) - 1)
+
+
+class _Upright(_Vessel):
     """A vessel about z with dishes, on a skirt, legs or a block, with nozzles and at times a manway."""
-    thin = kind != "tank"
-    radius = num(rng, 0.12, 0.4) if thin else num(rng, 0.35, 1.3)
-    high, depth = radius * num(rng, 1.6, 4.0), radius * pick(rng, 0.25, 0.5, 1.0, 0.0)
-    if kind == "separator":
-        high, depth = radius * num(rng, 4.0, 8.0), max(depth, 0.25 * radius)
-    low = depth + num(rng, 0.2, 0.7)
-    name = kind if thin else "shell"
-    group = _EQUIPMENT if thin else _TANK
-    if depth and chance(rng, 0.4) and not thin:
-        heads = [dish(radius, depth, 0.0, style)]
-        parts = [part(name, disc(radius, low, low + high, style), color="tank", bundle=name)]
-        for pose in (at(0, 0, low + high), at(0, 0, low) @ spun("x", np.pi)):
-            parts.append(part("dished head", moved(heads[0], pose), color="tank", bundle=name))
-    else:
-        solid = vessel(radius, low, low + high, depth, style) if depth else disc(radius, low, low + high, style)
-        parts = [part(name, solid, color="tank", bundle=name)]
-    if kind == "filter":
-        lids = [disc(1.3 * radius, z, z + 0.12 * radius, style) for z in (low + 0.8 * high, low + 0.93 * high)]
-        parts = [part(name, *(p.solid for p in parts), *lids, color="tank", bundle=name)]
-    parts += _stands(radius, low, style, rng, thin)
-    ports = []
-    for k in range(int(rng.integers(1, 4))):
-        dn = pick(rng, 25, 40, 50, 80) if radius > 0.3 else pick(rng, 15, 25, 40)
-        turn, z = 2.1 * k + num(rng, 0, 1.5), low + high * num(rng, 0.1, 0.9)
-        pose = at(0, 0, z) @ spun("z", turn)
-        face = radius + num(rng, 0.08, 0.2)
-        one = _nozzle(dn, pose, 0.8 * radius, face, style, rng)
-        parts.append(part(name, one.solid, color="tank", bundle=name) if thin else one)
-        ports.append(Port(pose @ at(face), dn, len(parts) - 1))
-    if not thin and chance(rng, 0.5):
-        lid = _manway(min(0.3, 0.45 * radius), 0.15, style, rng)
-        pose = at(0, 0, low + high + 0.7 * depth)
-        if chance(rng, 0.5):
-            pose = at(0, 0, low + 0.3 * high) @ spun("z", num(rng, 4, 6)) @ at(0.97 * radius) @ spun("y", np.pi / 2)
-        parts.append(Part(moved(lid.solid, pose), lid.name, lid.color, lid.bundle))
-    return Model(parts, ports=tuple(ports[: 1 if group == _EQUIPMENT else 3]), kind=kind)
 
+    radius: float
+    high: float = between(1.6, 4.0, "height of the shell / radius")
+    depth: float = among((0.25, 0.5, 1.0, 0.0), "depth of a dish / radius")
+    slender: float = given(0.0, "height of a slender shell / radius")
+    low: float = between(0.2, 0.7, "height of the lower dish over the floor", "m")
+    apart: bool = chance(0.4, "its heads are meshes of their own", when=lambda p: p.depth or p.slender, otherwise=False)
+    stand: _Stand
+    count: int = whole(1, 3, "nozzles")
+    nozzles: tuple[_SideNozzle, ...] = several(
+        lambda rng, p: _SideNozzle.draw(rng, {"wide": p.radius > 0.3}), lambda p: p.count, "its nozzles"
+    )
 
-def _stands(radius: float, low: float, style: ModelingStyle, rng: np.random.Generator, thin: bool) -> list[Part]:
-    """What an upright vessel stands on: a skirt, three or four legs, or a block [m]."""
-    kind = int(rng.integers(3))
-    if kind == 0 and not thin:
-        foot = radius * pick(rng, 1.0, 1.15)
-        solids = [cone(foot, radius, 0.0, low, style), disc(1.15 * foot, 0.0, 0.02, style)]
-        return [part("skirt", *solids, color="tank", bundle="skirt")]
-    if kind == 2:
-        return [
-            part(
-                "foundation",
-                box((2.2 * radius, 2.2 * radius, 0.95 * low), (0, 0, 0.475 * low)),
-                color="concrete",
-                group=FRAME,
-            )
-        ]
-    count, parts = int(rng.integers(3, 5)), []
-    size = max(0.03, 0.09 * radius)
-    for k in range(count):
-        pose = spun("z", 2 * np.pi * k / count) @ at(0.92 * radius)
-        leg = (
-            box((size, size, 1.2 * low), (0, 0, 0.6 * low))
-            if chance(rng, 0.6)
-            else disc(0.6 * size, 0, 1.2 * low, style)
-        )
-        name, group = ("tank leg", _TANK) if not thin else ("column", FRAME)
-        parts.append(
-            part(name, moved(leg, pose), color="steel", bundle=name if not thin else "", group=group if thin else "")
-        )
-        if chance(rng, 0.3):
-            plate = moved(box((2 * size, 2 * size, 0.012), (0, 0, 0.006)), pose)
-            parts.append(part("base plate", plate, color="steel", group=FRAME))
-    return parts
-
-
-def _lying_tank(_: int, style: ModelingStyle, rng: np.random.Generator, kind: str = "tank") -> Model:
-    """A vessel about x with dishes on two saddles, with nozzles; an exchanger also has discs round its channel."""
-    exchanger = kind != "tank"
-    radius = num(rng, 0.12, 0.35) if exchanger else num(rng, 0.3, 1.2)
-    half, depth = radius * num(rng, 1.4, 4.0), radius * pick(rng, 0.25, 0.5, 1.0)
-    axis = radius + num(rng, 0.2, 0.8)
-    level = at(0, 0, axis)
-    body: list[Solid] = [lying(vessel(radius, -half, half, depth, style))]
-    if exchanger:
-        for x in (-0.75 * half, -0.7 * half, *((0.8 * half,) if chance(rng, 0.4) else ())):
-            body.append(lying(disc(1.25 * radius, x, x + 0.03 * half, style)))
-    elif chance(rng, 0.3):
-        body += [lying(disc(1.02 * radius, x, x + 0.05, style)) for x in (-half, half - 0.05)]
-    name = kind if exchanger else "shell"
-    parts = [part(name, *(moved(one, level) for one in body), color="tank", bundle=name)]
-    for x in (-0.6 * half, 0.6 * half):
-        plates = [box((0.12 * half, 1.6 * radius, axis - 0.6 * radius), (x, 0, (axis - 0.6 * radius) / 2))]
-        plates.append(box((0.2 * half, 1.8 * radius, 0.02), (x, 0, 0.01)))
-        if exchanger:
-            parts.append(part("foundation", plates[0], color="concrete", group=FRAME))
+    def put(self, t: Table) -> tuple[float, float, float, list[Port]]:
+        """Puts all but a manway down: height of the shell's foot, of the shell, depth of a dish [m]; the ports."""
+        radius, tank, style = self.radius, self.label == "tank", t.style
+        name = "shell" if tank else self.label
+        high, depth = radius * (self.slender or self.high), radius * self.depth
+        depth = max(depth, 0.25 * radius) if self.slender else depth
+        low, own = depth + self.low, t.bundled(name)
+        if self.apart and tank:
+            head = dish(radius, depth, 0.0, style)
+            own.add(name, disc(radius, low, low + high, style))
+            for pose in (at(0, 0, low + high), at(0, 0, low) @ spun("x", np.pi)):
+                own.add("dished head", moved(head, pose))
         else:
-            parts.append(part("saddle", *plates[: pick(rng, 1, 2)], color="steel", bundle="saddle"))
-    ports = []
-    places = np.linspace(-0.85, 0.85, int(rng.integers(2, 5))) * half
-    for k, x in enumerate(places):
-        dn, down = pick(rng, 25, 40, 50, 80), exchanger and k % 2 == 1
-        pose = at(float(x), 0, axis) @ spun("y", (0.5 if down else -0.5) * np.pi)
-        face = radius + num(rng, 0.08, 0.2)
-        one = _nozzle(dn, pose, 0.8 * radius, face, style, rng)
-        parts.append(part(name, one.solid, color="tank", bundle=name) if exchanger else one)
-        if not down:
-            ports.append(Port(pose @ at(face), dn, len(parts) - 1))
-    if not exchanger and chance(rng, 0.5):
-        lid = _manway(min(0.3, 0.5 * radius), 0.2, style, rng)
-        pose = at(half + 0.8 * depth, 0, axis) @ spun("y", np.pi / 2)
-        parts.append(Part(moved(lid.solid, pose), lid.name, lid.color, lid.bundle))
-    return Model(parts, ports=tuple(ports), kind=kind)
+            solid = vessel(radius, low, low + high, depth, style) if depth else disc(radius, low, low + high, style)
+            heights = [low + 0.8 * high, low + 0.93 * high] if self.label == "filter" else []
+            lids = [disc(1.3 * radius, z, z + 0.12 * radius, style) for z in heights]
+            own.add(name, solid, *lids, of="tank")
+        self.stand.build(t, radius, low)
+        ports = []
+        for k, one in enumerate(self.nozzles):
+            there = t.at(0, 0, low + high * one.high).spun("z", 2.1 * k + one.turn)
+            ports.append(self.nozzle(there, one.snout, 0.8 * radius, radius + one.reach))
+        return low, high, depth, ports
 
 
-def _box_tank(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+def _stand(thin: bool) -> _Stand:
+    return nested(lambda s, _: _Stand.draw(s, {"thin": thin}), "what it stands on")
+
+
+class UprightTank(_Upright, name="tank/upright of primitives", group="Tank", label="tank", weight=3):
+    """A tank about z with dishes, on a skirt, legs or a block, with nozzles and at times a manway."""
+
+    radius: float = between(0.35, 1.3, "radius", "m")
+    stand: _Stand = _stand(False)
+    manned: bool = chance(0.5, "a manway")
+    manway: _Manway = nested(_Manway, "manway", when=lambda p: p.manned)
+    aside: bool = chance(0.5, "it is at the side, not on top", when=lambda p: p.manned)
+    turn: float = between(4, 6, "where it is at the side", "rad", when=lambda p: p.aside)
+
+    def build(self, t: Table) -> Model:
+        low, high, depth, ports = self.put(t)
+        if self.manned:
+            there = t.at(0, 0, low + high + 0.7 * depth)
+            if self.aside:
+                there = t.at(0, 0, low + 0.3 * high).spun("z", self.turn).at(0.97 * self.radius).spun("y", np.pi / 2)
+            self.manway.build(there, min(0.3, 0.45 * self.radius), 0.15)
+        return t.model(kind="tank", ports=ports[:3])
+
+
+class UprightFilter(_Upright, name="filter/upright of primitives", group="Equipment", label="filter"):
+    """A filter about z with dishes and a bolted lid, on legs or a block, with nozzles."""
+
+    radius: float = between(0.12, 0.4, "radius", "m")
+    stand: _Stand = _stand(True)
+
+    def build(self, t: Table) -> Model:
+        return t.model(kind=self.label, ports=self.put(t)[3][:1])
+
+
+class UprightSeparator(UprightFilter, name="separator/upright of primitives", label="separator"):
+    """A slender separator about z with dishes, on legs or a block, with nozzles."""
+
+    slender: float = between(4.0, 8.0, "height of the shell / radius")
+
+
+class _TopNozzle(Params):
+    """A nozzle of a lying vessel."""
+
+    dn: int = among((25, 40, 50, 80), "nominal size", "mm")
+    reach: float = between(0.08, 0.2, "of its face beyond the shell", "m")
+    snout: Snout = _snout(lambda p: p.dn, "nozzle")
+
+
+class _Lying(_Vessel):
+    """A vessel about x with dishes on two saddles, with nozzles."""
+
+    radius: float
+    half: float = between(1.4, 4.0, "half the length of the shell / radius")
+    depth: float = among((0.25, 0.5, 1.0), "depth of a dish / radius")
+    lift: float = between(0.2, 0.8, "height of the shell over the floor", "m")
+
+    def shell(self, t: Table, *discs: tuple[float, float, float]) -> tuple[float, float]:
+        """Puts the shell down with discs round it (radius, from, to), half its length and its axis' height [m]."""
+        half, axis = self.radius * self.half, self.radius + self.lift
+        name = "shell" if self.label == "tank" else self.label
+        body = vessel(self.radius, -half, half, self.radius * self.depth, t.style)
+        solids = [lying(body), *(lying(disc(*one, t.style)) for one in discs)]
+        t.at(0, 0, axis).bundled(name).add(name, *solids, of="tank")
+        return half, axis
+
+    def saddle(self, half: float, axis: float) -> list[Solid]:
+        """A web and a foot about the origin [m]."""
+        tall = axis - 0.6 * self.radius
+        web = box((0.12 * half, 1.6 * self.radius, tall), (0, 0, tall / 2))
+        return [web, box((0.2 * half, 1.8 * self.radius, 0.02), (0, 0, 0.01))]
+
+    def ports(self, t: Table, nozzles: tuple[_TopNozzle, ...], half: float, axis: float, both: bool) -> list[Port]:
+        """Puts the nozzles down along the top, every second one below where ``both``; the ports on top [m]."""
+        ports = []
+        for k, (x, one) in enumerate(zip(np.linspace(-0.85, 0.85, len(nozzles)) * half, nozzles, strict=True)):
+            down = both and k % 2 == 1
+            there = t.at(float(x), 0, axis).spun("y", (0.5 if down else -0.5) * np.pi)
+            port = self.nozzle(there, one.snout, 0.8 * self.radius, self.radius + one.reach)
+            ports += [] if down else [port]
+        return ports
+
+
+def _nozzles() -> tuple[_TopNozzle, ...]:
+    return several(lambda rng, _: _TopNozzle.draw(rng), lambda p: p.count, "its nozzles")
+
+
+class LyingTank(_Lying, name="tank/lying of primitives", group="Tank", label="tank", weight=3):
+    """A tank about x with dishes on two saddles, with nozzles and at times a manway."""
+
+    radius: float = between(0.3, 1.2, "radius", "m")
+    belted: bool = chance(0.3, "a belt at either end of the shell")
+    plates: tuple[int, ...] = several(lambda rng, _: (1, 2)[int(rng.integers(2))], lambda _: 2, "plates of each saddle")
+    count: int = whole(2, 4, "nozzles")
+    nozzles: tuple[_TopNozzle, ...] = _nozzles()
+    manned: bool = chance(0.5, "a manway in one end")
+    manway: _Manway = nested(_Manway, "manway", when=lambda p: p.manned)
+
+    def build(self, t: Table) -> Model:
+        radius, end = self.radius, self.radius * self.half
+        belts = [(1.02 * radius, x, x + 0.05) for x in (-end, end - 0.05)] if self.belted else []
+        half, axis = self.shell(t, *belts)
+        for x, count in zip((-0.6 * half, 0.6 * half), self.plates, strict=True):
+            t.at(x).bundled("saddle").add("saddle", *self.saddle(half, axis)[:count], own=True)
+        ports = self.ports(t, self.nozzles, half, axis, False)
+        if self.manned:
+            there = t.at(half + 0.8 * radius * self.depth, 0, axis).spun("y", np.pi / 2)
+            self.manway.build(there, min(0.3, 0.5 * radius), 0.2)
+        return t.model(kind="tank", ports=ports)
+
+
+class LyingExchanger(
+    _Lying, name="heat exchanger/lying of primitives", group="Equipment", label="heat exchanger", weight=2
+):
+    """A heat exchanger about x with dishes on two saddles, with nozzles and discs round its channel."""
+
+    radius: float = between(0.12, 0.35, "radius", "m")
+    third: bool = chance(0.4, "a disc at the far end too")
+    count: int = whole(2, 4, "nozzles")
+    nozzles: tuple[_TopNozzle, ...] = _nozzles()
+
+    def build(self, t: Table) -> Model:
+        end = self.radius * self.half
+        places = (-0.75 * end, -0.7 * end, *((0.8 * end,) if self.third else ()))
+        half, axis = self.shell(t, *((1.25 * self.radius, x, x + 0.03 * end) for x in places))
+        for x in (-0.6 * half, 0.6 * half):
+            t.at(x).add("foundation", self.saddle(half, axis)[0])
+        return t.model(kind=self.label, ports=self.ports(t, self.nozzles, half, axis, True))
+
+
+class PlainBox(_Vessel, name="tank/plain box", group="Tank", label="tank", weight=1.5):
     """A rectangular tank, closed or open at the top, on the floor or on legs."""
-    a, b, c = num(rng, 0.5, 2.0), num(rng, 0.4, 1.5), num(rng, 0.4, 1.5)
-    low, t = pick(rng, 0.0, 0.3, num(rng, 0.5, 2.0)), 0.01
-    solids = [box((a, b, c), (0, 0, low + c / 2))]
-    if chance(rng, 0.5):
-        solids = [box((a, b, t), (0, 0, low + t / 2))]
-        for s in (-1, 1):
-            solids.append(box((t, b, c - t), (s * (a - t) / 2, 0, low + t + (c - t) / 2)))
-            solids.append(box((a - 2 * t, t, c - t), (0, s * (b - t) / 2, low + t + (c - t) / 2)))
-    parts = [part("shell", *solids, color="tank", bundle="shell")]
-    if low:
-        for x in (-1, 1):
+
+    length: float = between(0.5, 2.0, "length", "m")
+    wide: float = between(0.4, 1.5, "width", "m")
+    high: float = between(0.4, 1.5, "height", "m")
+    tall: float = between(0.5, 2.0, "height of high legs", "m")
+    stands: str = among(("floor", "low legs", "high legs"), "what it stands on")
+    open_: bool = chance(0.5, "it is open at the top")
+    nozzle_dn: int = among((25, 40, 50), "nominal size of its nozzle", "mm")
+    snout: Snout = _snout(lambda p: p.nozzle_dn, "nozzle")
+
+    def build(self, t: Table) -> Model:
+        a, b, c, wall = self.length, self.wide, self.high, 0.01
+        low = {"floor": 0.0, "low legs": 0.3, "high legs": self.tall}[self.stands]
+        solids = [box((a, b, c), (0, 0, low + c / 2))]
+        if self.open_:
+            solids = [box((a, b, wall), (0, 0, low + wall / 2))]
+            for s in (-1, 1):
+                middle = low + wall + (c - wall) / 2
+                solids.append(box((wall, b, c - wall), (s * (a - wall) / 2, 0, middle)))
+                solids.append(box((a - 2 * wall, wall, c - wall), (0, s * (b - wall) / 2, middle)))
+        t.bundled("shell").add("shell", *solids)
+        for x in (-1, 1) if low else ():
             for y in (-1, 1):
                 leg = box((0.06, 0.06, low), (x * (a / 2 - 0.03), y * (b / 2 - 0.03), low / 2))
-                parts.append(part("tank leg", leg, color="steel", bundle="tank leg"))
-    dn = pick(rng, 25, 40, 50)
-    pose = at(0, 0, low + 0.3 * c)
-    parts.append(_nozzle(dn, pose, a / 2 - t, a / 2 + 0.12, style, rng))
-    return Model(parts, ports=(Port(pose @ at(a / 2 + 0.12), dn, len(parts) - 1),), kind="tank")
+                t.bundled("tank leg").add("tank leg", leg, own=True)
+        port = self.nozzle(t.at(0, 0, low + 0.3 * c), self.snout, a / 2 - wall, a / 2 + 0.12)
+        return t.model(kind="tank", ports=(port,))
 
 
-def _cased(_: int, style: ModelingStyle, rng: np.random.Generator, kind: str) -> Model:
-    """A boiler, compressor, radiator or the like as a box, at times with cylinders on it."""
-    a, b, c = num(rng, 0.5, 1.8), num(rng, 0.4, 1.0), num(rng, 0.6, 1.8)
-    if kind == "radiator":
-        a, b, c = num(rng, 0.4, 2.0), num(rng, 0.05, 0.2), num(rng, 0.3, 0.9)
-    low = 0.12 if kind == "radiator" else pick(rng, 0.0, 0.1)
-    solids = [box((a, b, c), (0, 0, low + c / 2))]
-    if kind == "radiator" and chance(rng, 0.5):
-        solids = [box((0.8 * a / 10, b, c), (x, 0, low + c / 2)) for x in np.linspace(-0.45, 0.45, 10) * a] + [
-            box((a, 0.3 * b, 0.1 * c), (0, 0, low + z * c)) for z in (0.1, 0.9)
+# --- equipment ---
+
+
+class _Cased(Device, group="Equipment", weight=0.7):
+    """An apparatus as a box, at times with cylinders on it."""
+
+    mouths: ClassVar[tuple[float, ...]] = (0.0,)
+
+    def put(self, t: Table, solids: list[Solid], stub: int, size: tuple[float, float, float], low: float) -> Model:
+        """Puts it down with its stubs of pipe, of a length, width and height [m]."""
+        a, b, c = size
+        poses = [looking((-a / 2 - 0.06, y * b, low + 0.2 * c), (-1, 0, 0)) for y in self.mouths]
+        stubs = [moved(lying(pipe_piece(stub, -0.08, 0.0, t.style)), pose) for pose in poses]
+        t.bundled(self.label).add(self.label, *solids, *stubs, of="tank")
+        if low and self.label != "radiator":
+            t.add("foundation", box((a + 0.2, b + 0.2, low), (0, 0, low / 2)))
+        return t.model(kind=self.label, ports=[Port(pose, stub, 0) for pose in poses])
+
+
+class _OnFloor(_Cased):
+    """One that stands on the floor or on a foundation."""
+
+    length: float = between(0.5, 1.8, "length", "m")
+    wide: float = between(0.4, 1.0, "width", "m")
+    high: float = between(0.6, 1.8, "height", "m")
+    low: float = among((0.0, 0.1), "height of the foundation", "m")
+
+
+def _stub() -> int:
+    return among((15, 20, 25), "nominal size of its pipe", "mm")
+
+
+class BoxBoiler(_OnFloor, name="boiler/of boxes and cylinders", label="boiler"):
+    """A boiler as a box with a flue and maybe a burner."""
+
+    mouths = (-0.2, 0.2)
+
+    flue: float = between(0.1, 0.5, "height of the flue", "m")
+    fired: bool = chance(0.4, "a burner at its front")
+    stub: int = _stub()
+
+    def build(self, t: Table) -> Model:
+        a, b, c, low, style = self.length, self.wide, self.high, self.low, t.style
+        solids = [box((a, b, c), (0, 0, low + c / 2)), disc(0.2 * b, low + 0.9 * c, low + c + self.flue, style)]
+        if self.fired:
+            solids.append(lying(disc(0.25 * b, a / 2, a / 2 + 0.3, style), 0, 0, low + 0.4 * c))
+        return self.put(t, solids, self.stub, (a, b, c), low)
+
+
+class VesselCompressor(_OnFloor, name="compressor/of boxes and cylinders", label="compressor"):
+    """A lying vessel on two feet with a box, a drum and a motor on it."""
+
+    stub: int = _stub()
+
+    def build(self, t: Table) -> Model:
+        a, b, c, low, style = self.length, self.wide, self.high, self.low, t.style
+        r = 0.4 * b
+        axis = low + 0.15 + r
+        top = axis + 0.95 * r
+        solids = [lying(vessel(r, -0.45 * a, 0.45 * a, 0.4 * r, style), 0, 0, axis)]
+        solids += [box((0.08 * a, 1.2 * r, axis - low), (x, 0, (axis + low) / 2)) for x in (-0.3 * a, 0.3 * a)]
+        solids.append(box((0.8 * a, 1.4 * r, 0.04), (0, 0, top)))
+        solids.append(box((0.25 * a, 0.9 * r, 0.4 * c), (-0.2 * a, 0, top + 0.2 * c)))
+        solids.append(lying(disc(0.45 * r, 0.0, 0.35 * a, style), 0, 0, top + 0.5 * r))
+        return self.put(t, solids, self.stub, (a, b, c), low)
+
+
+class DrumBlower(_OnFloor, name="blower/of boxes and cylinders", label="blower"):
+    """A flat drum across, its square mouth upward, with a motor and a cone for its inlet."""
+
+    stub: int = _stub()
+
+    def build(self, t: Table) -> Model:
+        a, b, c, low, style = self.length, self.wide, self.high, self.low, t.style
+        r = 0.4 * c
+        axis = low + 1.2 * r
+        solids = [
+            box((a, b, 0.1 * c), (0, 0, low + 0.05 * c)),
+            lying(disc(r, -0.3 * b, 0.3 * b, style), 0, 0, axis),
+            box((0.6 * b, 0.6 * r, 1.4 * r), (0, 0.7 * r, axis + 0.7 * r)),
+            lying(cone(0.5 * r, 0.7 * r, 0.3 * b, 0.6 * b, style), 0, 0, axis),
+            lying(disc(0.4 * r, -0.9 * b, -0.3 * b, style), 0, 0, axis),
+            box((0.5 * b, 0.7 * r, axis - low), (-0.6 * b, 0, (axis + low) / 2)),
         ]
-    if kind == "burner":
+        return self.put(t, solids, self.stub, (a, b, c), low)
+
+
+class _Slab(Params):
+    """The size of a radiator."""
+
+    length: float = between(0.4, 2.0, "length", "m")
+    wide: float = between(0.05, 0.2, "depth", "m")
+    high: float = between(0.3, 0.9, "height", "m")
+
+
+def _draw_slab(source: Source, _: object) -> _Slab:
+    # As many numbers as the size of what stands on the floor takes are drawn first and given up.
+    source.rng.random(3)
+    return _Slab.draw(source)
+
+
+class BoxRadiator(_Cased, name="radiator/of boxes and cylinders", label="radiator"):
+    """A radiator as a box or as ten sections on two headers."""
+
+    size: _Slab = nested(_draw_slab, "size")
+    ribbed: bool = chance(0.5, "ten sections on two headers")
+    stub: int = _stub()
+
+    def build(self, t: Table) -> Model:
+        a, b, c, low = self.size.length, self.size.wide, self.size.high, 0.12
+        solids = [box((a, b, c), (0, 0, low + c / 2))]
+        if self.ribbed:
+            solids = [box((0.8 * a / 10, b, c), (x, 0, low + c / 2)) for x in np.linspace(-0.45, 0.45, 10) * a]
+            solids += [box((a, 0.3 * b, 0.1 * c), (0, 0, low + z * c)) for z in (0.1, 0.9)]
+        return self.put(t, solids, self.stub, (a, b, c), low)
+
+
+class DrumBurner(_OnFloor, name="burner/of boxes and cylinders", label="burner"):
+    """A burner: a drum with a narrower one, a box on top, a foot."""
+
+    stub: int = _stub()
+
+    def build(self, t: Table) -> Model:
+        a, b, c, low, style = self.length, self.wide, self.high, self.low, t.style
         r = 0.25 * c
-        solids = [lying(disc(r, -0.3 * a, 0.3 * a, style), 0, 0, low + 2 * r)]
-        solids.append(lying(disc(0.55 * r, 0.3 * a, 0.7 * a, style), 0, 0, low + 2 * r))
-        solids += [
+        solids = [
+            lying(disc(r, -0.3 * a, 0.3 * a, style), 0, 0, low + 2 * r),
+            lying(disc(0.55 * r, 0.3 * a, 0.7 * a, style), 0, 0, low + 2 * r),
             box((0.35 * a, 1.2 * r, r), (0, 0, low + 3.2 * r)),
             box((0.1 * a, 0.1 * a, 1.2 * r), (0, 0, low + 0.6 * r)),
         ]
-    elif kind == "boiler":
-        solids.append(disc(0.2 * b, low + 0.9 * c, low + c + num(rng, 0.1, 0.5), style))
-        if chance(rng, 0.4):
-            solids.append(lying(disc(0.25 * b, a / 2, a / 2 + 0.3, style), 0, 0, low + 0.4 * c))
-    elif kind in ("compressor", "blower"):
-        solids = _compressor(a, b, c, low, style) if kind == "compressor" else _blower(a, b, c, low, style)
-    parts = [part(kind, *solids, color="tank", bundle=kind)]
-    if low and kind != "radiator":
-        parts.append(part("foundation", box((a + 0.2, b + 0.2, low), (0, 0, low / 2)), color="concrete", group=FRAME))
-    dn = pick(rng, 15, 20, 25)
-    ports = []
-    for y in (-0.2, 0.2) if kind == "boiler" else (0.0,):
-        pose = looking((-a / 2 - 0.06, y * b, low + 0.2 * c), (-1, 0, 0))
-        stub = moved(lying(pipe_piece(dn, -0.08, 0.0, style)), pose)
-        parts[0] = part(kind, parts[0].solid, stub, color="tank", bundle=kind)
-        ports.append(Port(pose, dn, 0))
-    return Model(parts, ports=tuple(ports), kind=kind)
+        return self.put(t, solids, self.stub, (a, b, c), low)
 
 
-def _compressor(a: float, b: float, c: float, low: float, style: ModelingStyle) -> list[Solid]:
-    """A lying vessel on two feet with a box, a drum and a motor on it [m]."""
-    r = 0.4 * b
-    axis = low + 0.15 + r
-    solids = [lying(vessel(r, -0.45 * a, 0.45 * a, 0.4 * r, style), 0, 0, axis)]
-    solids += [box((0.08 * a, 1.2 * r, axis - low), (x, 0, (axis + low) / 2)) for x in (-0.3 * a, 0.3 * a)]
-    top = axis + 0.95 * r
-    solids += [
-        box((0.8 * a, 1.4 * r, 0.04), (0, 0, top)),
-        box((0.25 * a, 0.9 * r, 0.4 * c), (-0.2 * a, 0, top + 0.2 * c)),
-    ]
-    solids.append(lying(disc(0.45 * r, 0.0, 0.35 * a, style), 0, 0, top + 0.5 * r))
-    return solids
-
-
-def _blower(a: float, b: float, c: float, low: float, style: ModelingStyle) -> list[Solid]:
-    """A flat drum across, its square mouth upward, with a motor and a cone for its inlet [m]."""
-    r = 0.4 * c
-    axis = low + 1.2 * r
-    return [
-        box((a, b, 0.1 * c), (0, 0, low + 0.05 * c)),
-        lying(disc(r, -0.3 * b, 0.3 * b, style), 0, 0, axis),
-        box((0.6 * b, 0.6 * r, 1.4 * r), (0, 0.7 * r, axis + 0.7 * r)),
-        lying(cone(0.5 * r, 0.7 * r, 0.3 * b, 0.6 * b, style), 0, 0, axis),
-        lying(disc(0.4 * r, -0.9 * b, -0.3 * b, style), 0, 0, axis),
-        box((0.5 * b, 0.7 * r, axis - low), (-0.6 * b, 0, (axis + low) / 2)),
-    ]
-
-
-def _inline_pot(dn: int, style: ModelingStyle, rng: np.random.Generator, kind: str = "filter") -> Model:
+class PotOnLine(Device, name="filter/pot on line", place="inline", group="Equipment", label="filter", weight=0.5):
     """An upright vessel that a line runs through."""
-    r, length = PIPES[dn].radius, round(FLANGES[dn].outer * num(rng, 1.3, 2.2), 6)
-    wide = min(0.45 * length, r * num(rng, 1.4, 2.5))
-    pot = vessel(wide, -wide * num(rng, 1.0, 3.0), wide * num(rng, 0.8, 1.5), 0.4 * wide, style)
-    solid = merge([lying(disc(r, 0.0, length, style)), moved(pot, at(length / 2))])
-    return Model([part(kind, solid, color="tank", bundle=kind)], length, kind=kind)
+
+    length: float = between(1.3, 2.2, "face to face / outside of the flange")
+    wide: float = between(1.4, 2.5, "radius / of the pipe")
+    low: float = between(1.0, 3.0, "what is below the axis / radius")
+    high: float = between(0.8, 1.5, "what is above the axis / radius")
+
+    def build(self, t: Table) -> Model:
+        r, length = PIPES[self.dn].radius, round(t.flange.outer * self.length, 6)
+        wide = min(0.45 * length, r * self.wide)
+        pot = vessel(wide, -wide * self.low, wide * self.high, 0.4 * wide, t.style)
+        run = lying(disc(r, 0.0, length, t.style))
+        t.bundled("filter").add("filter", run, moved(pot, at(length / 2)), of="tank")
+        return t.model(length, kind="filter")
 
 
-_MACHINES = sized(40, 150)
-
-PRIMITIVE_MACHINES: tuple[Family, ...] = (
-    family("pump/cylinders and boxes", "floor", _PUMP, _end_suction, "pump", _MACHINES, 4),
-    family("pump/motor on line", "inline", _PUMP, _inline_pump, "pump", sized(15, 150), 0.8),
-    family("pump/box and cylinder", "floor", _PUMP, _small_pump, "pump"),
-    family("tank/upright of primitives", "floor", _TANK, _upright, "tank", weight=3),
-    family("tank/lying of primitives", "floor", _TANK, _lying_tank, "tank", weight=3),
-    family("tank/plain box", "floor", _TANK, _box_tank, "tank", weight=1.5),
-    family(
-        "heat exchanger/lying of primitives", "floor", _EQUIPMENT, partial(_lying_tank, kind="heat exchanger"), weight=2
-    ),
-    family("filter/upright of primitives", "floor", _EQUIPMENT, partial(_upright, kind="filter")),
-    family("separator/upright of primitives", "floor", _EQUIPMENT, partial(_upright, kind="separator")),
-    family("filter/pot on line", "inline", _EQUIPMENT, _inline_pot, weight=0.5),
-    *(
-        family(f"{kind}/of boxes and cylinders", "floor", _EQUIPMENT, partial(_cased, kind=kind), weight=0.7)
-        for kind in ("boiler", "compressor", "blower", "radiator", "burner")
-    ),
+PRIMITIVE_MACHINES: tuple[Family, ...] = families_of(
+    CylindersAndBoxes,
+    MotorOnLine,
+    BoxAndCylinder,
+    UprightTank,
+    LyingTank,
+    PlainBox,
+    LyingExchanger,
+    UprightFilter,
+    UprightSeparator,
+    PotOnLine,
+    BoxBoiler,
+    VesselCompressor,
+    DrumBlower,
+    BoxRadiator,
+    DrumBurner,
 )

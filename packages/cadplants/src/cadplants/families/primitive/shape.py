@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from cadgraph.model.scene import Floats
-from cadplants.families.chance import chance, pick
+from cadplants.builder.params import Params, among, chance, given
 from cadplants.family import Build, Family, Part
 from cadplants.mesh_ops import Solid, about_x, merge, moved, revolve, tube, weld
 from cadplants.modeling_style import ModelingStyle
@@ -17,6 +17,7 @@ from cadplants.transforms import at
 
 __all__ = [
     "FRAME",
+    "Snout",
     "cone",
     "disc",
     "dish",
@@ -26,7 +27,6 @@ __all__ = [
     "pipe_piece",
     "sized",
     "sleeve",
-    "snout",
     "spoked",
     "torus_piece",
     "vessel",
@@ -104,13 +104,26 @@ def pipe_piece(dn: int, low: float, high: float, style: ModelingStyle) -> Solid:
     return sleeve(PIPES[dn].bore, PIPES[dn].radius, low, high, style)
 
 
-def snout(dn: int, low: float, face: float, style: ModelingStyle, rng: np.random.Generator) -> Solid:
-    """A nozzle about z: a cylinder with or without a disc at its end, at height ``face`` [m]."""
-    neck = pipe_piece(dn, low, face, style)
-    if chance(rng, 0.2):
-        return neck
-    thick = min(pick(rng, 0.012, 0.02, FLANGES[dn].thickness), 0.5 * abs(face - low))
-    return merge([neck, disc(FLANGES[dn].outer / 2, face - thick, face, style)])
+class Snout(Params):
+    """A nozzle: a cylinder with or without a disc at its end."""
+
+    dn: int = given(0, "nominal size", "mm")
+    bare: bool = chance(0.2, "no disc")
+    thick: float = among(
+        lambda p: (0.012, 0.02, FLANGES[p.dn].thickness),
+        "of the disc",
+        "m",
+        when=lambda p: not p.bare,
+        otherwise=0.0,
+    )
+
+    def solid(self, low: float, face: float, style: ModelingStyle) -> Solid:
+        """About z between two heights, its face up [m]."""
+        neck = pipe_piece(self.dn, low, face, style)
+        if self.bare:
+            return neck
+        thick = min(self.thick, 0.5 * abs(face - low))
+        return merge([neck, disc(FLANGES[self.dn].outer / 2, face - thick, face, style)])
 
 
 def spoked(radius: float, thick: float, count: int, style: ModelingStyle) -> list[Solid]:
