@@ -12,7 +12,7 @@ from cadplants.families.supports.shape import (
     framed,
     nut_parts,
     piece,
-    screwed,
+    screwed_parts as screwed,
     slab_yz,
     strap,
 )

@@ -12,7 +12,7 @@ from cadplants.families.supports.shape import (
     framed,
     member,
     piece,
-    screwed,
+    screwed_parts as screwed,
     strap,
     upright,
 )
