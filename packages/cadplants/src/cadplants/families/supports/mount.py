@@ -12,9 +12,11 @@ from cadplants.families.supports.shape import (
     framed,
     member,
     piece,
-    screwed_parts as screwed,
     strap,
     upright,
+)
+from cadplants.families.supports.shape import (
+    screwed_parts as screwed,
 )
 from cadplants.family import Family, Model, Part, placed
 from cadplants.mesh_ops import extrude, merge, moved

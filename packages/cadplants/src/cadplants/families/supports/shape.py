@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -21,10 +21,13 @@ from cadplants.builder.params import (
     chance,
     given,
     nested,
+    several,
     styled,
     whole,
 )
 from cadplants.builder.table import Table
+from cadplants.families.chance import chance as happens
+from cadplants.families.chance import pick
 from cadplants.family import Build, Family, Part
 from cadplants.mesh_ops import Solid, about_x, extrude, merge, moved, sweep
 from cadplants.modeling_style import ModelingStyle
@@ -35,11 +38,12 @@ from cadplants.transforms import at, spun
 
 __all__ = [
     "BOTH", "CORNERS", "GROUP", "Below", "Carrier", "Feet", "Fitting", "Footing", "Overhead", "Section", "Standing",
-    "add_bolt", "add_nuts", "arc_yz", "bow", "eye", "few", "foot_of", "hung", "radius", "screwed", "shuffled",
+    "add_bolt", "add_nuts", "add_wall", "arc_yz", "bow", "chances", "eye", "few", "foot_of", "hung", "picks", "radius", "screwed", "section_of", "shuffled",
     "slab_yz", "standing", "strap", "upright",
 ]  # fmt: skip
 
 GROUP, FRAME = "Connection assembly", "Structural element"
+T = TypeVar("T")
 Point = Sequence[float]
 BOTH = (-1, 1)
 CORNERS = tuple((x, y) for x in BOTH for y in BOTH)
@@ -158,6 +162,11 @@ def screwed(t: Table, d: float, grip: float, x: float, y: float, z: float, head:
     add_bolt(t.at(x, y, z).moved(_QUARTER), d, grip, head)
 
 
+def add_wall(t: Table, wide: float, thick: float, y: float, low: float, high: float) -> None:
+    """A wall whose face stands at ``y`` beside the line, between two heights [m]."""
+    t.add("wall", box((wide, thick, high - low), (0, y + thick / 2, (high + low) / 2)))
+
+
 # --- parameters ---
 
 
@@ -178,6 +187,18 @@ def shuffled(items: Sequence[str], about: str) -> tuple[str, ...]:
     limits = f"{', '.join(items)} in some order"
     draw = lambda source, _: tuple(map(str, source.rng.permutation(list(items))))  # noqa: E731
     return dataclasses.field(metadata={"spec": Field(about, "", limits, draw, accept)})  # type: ignore[return-value]
+
+
+def picks(items: Sequence[T], count: int | Callable[[Any], int], about: str, when: When | None = None) -> tuple[T, ...]:
+    """A field: several of some things, one after the other."""
+    number = count if callable(count) else lambda _: count
+    return several(lambda rng, _: pick(rng, *items), number, about, when=when)
+
+
+def chances(share: float, count: int | Callable[[Any], int], about: str, when: When | None = None) -> tuple[bool, ...]:
+    """A field: whether something is so that is so this often, several times."""
+    number = count if callable(count) else lambda _: count
+    return several(lambda rng, _: happens(rng, share), number, about, when=when)
 
 
 class Feet(Params):
