@@ -26,9 +26,9 @@ from cadplants.builder.params import (
     whole,
 )
 from cadplants.builder.table import Table
+from cadplants.family import Build, Family, Part
 from cadplants.families.chance import chance as happens
 from cadplants.families.chance import pick
-from cadplants.family import Build, Family, Part
 from cadplants.mesh_ops import Solid, about_x, extrude, merge, moved, sweep
 from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle, section_angle, section_channel, section_i
@@ -38,7 +38,7 @@ from cadplants.transforms import at, spun
 
 __all__ = [
     "BOTH", "CORNERS", "GROUP", "Below", "Carrier", "Feet", "Fitting", "Footing", "Overhead", "Section", "Standing",
-    "add_bolt", "add_nuts", "add_wall", "arc_yz", "bow", "chances", "eye", "few", "foot_of", "hung", "picks", "radius", "screwed", "section_of", "shuffled",
+    "add_bolt", "add_nuts", "add_wall", "arc_yz", "bow", "chances", "eye", "few", "foot_of", "hung", "picks", "piecemeal", "radius", "screwed", "section_of", "shuffled",
     "slab_yz", "standing", "strap", "upright",
 ]  # fmt: skip
 
@@ -261,7 +261,8 @@ def section_of(about: str, flat: bool = False, when: When | None = None) -> Sect
     return nested(lambda s, _: Section.draw(s, {"flat": flat}), about, when=when)
 
 
-def _piecemeal(p: Any) -> bool:
+def piecemeal(p: Any) -> bool:
+    """Whether the style makes more than one mesh of a support: then feet keep bolts and ribs of their own."""
     return bool(p.structure != "one")
 
 
@@ -275,8 +276,8 @@ class Footing(Feet):
     round: bool = chance(0.25, "the plate is round")
     corner: float = among((0.0, 0.01), "radius of the plate's corners", "m", when=lambda p: not p.round)
     slotted: bool = chance(0.3, "long holes in a square plate", when=lambda p: p.holes)
-    bolted: bool = chance(0.6, "bolts in the holes", when=_piecemeal)
-    ribbed: bool = chance(0.3, "ribs from the plate to the shaft, where there is room", when=_piecemeal)
+    bolted: bool = chance(0.6, "bolts in the holes", when=piecemeal)
+    ribbed: bool = chance(0.3, "ribs from the plate to the shaft, where there is room", when=piecemeal)
 
     @property
     def top(self) -> float:
@@ -369,7 +370,9 @@ class Below(Feet):
     wide: float = between(0.1, 0.3, "width of the block - of the support", "m", when=_block)
     deep: float = between(0.15, 0.4, "depth of the block", "m", when=_block)
     head: float = among((0.006, 0.01, 0.012), "thickness of the post's head plate", "m", when=_on("post"))
-    over: float = between(0.12, 0.5, "how far its beam reaches past the support", "m", when=_on(*_BEAM))
+    over: float = between(
+        0.12, 0.5, "how far its beam reaches past the support", "m", when=_on(*_BEAM)
+    )
     section: Section = section_of("section of its beam", when=_on(*_BEAM))
     leg: _Leg = nested(_leg_of, "its post, or each", when=_on("post", "portal", "tee"))
     rise: float = between(0.1, 0.8, "of the column over the support", "m", when=_on("column"))
@@ -412,7 +415,9 @@ class Below(Feet):
 
 def standing(depth: Callable[[Any], float], when: When | None = None) -> Below:
     """A field: what a carrier stands on, whose underside is this far below the line's axis [m]."""
-    return nested(lambda s, p: Below.draw(s, {"free": p.height - depth(p), **_feet(p)}), "what it stands on", when=when)
+    return nested(
+        lambda s, p: Below.draw(s, {"free": p.height - depth(p), **_feet(p)}), "what it stands on", when=when
+    )
 
 
 def _beside(p: Any) -> bool:
@@ -452,9 +457,7 @@ def hung(half: float | Callable[[Any], float] = 0.0, when: When | None = None) -
     """A field: what a hanger hangs from that is half this wide across the line [m]."""
     wide = half if callable(half) else lambda _: half
     return nested(
-        lambda s, p: Overhead.draw(s, {"height": p.height, "half": wide(p), **_feet(p)}),
-        "what it hangs from",
-        when=when,
+        lambda s, p: Overhead.draw(s, {"height": p.height, "half": wide(p), **_feet(p)}), "what it hangs from", when=when
     )
 
 
