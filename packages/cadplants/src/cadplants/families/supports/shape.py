@@ -38,8 +38,8 @@ from cadplants.transforms import at, spun
 
 __all__ = [
     "BOTH", "CORNERS", "GROUP", "Below", "Carrier", "Feet", "Fitting", "Footing", "Overhead", "Section", "Standing",
-    "add_bolt", "add_nuts", "add_wall", "arc_yz", "bow", "chances", "eye", "few", "foot_of", "hung", "picks", "piecemeal", "radius", "screwed", "section_of", "shuffled",
-    "slab_yz", "standing", "strap", "upright",
+    "add_bolt", "add_nuts", "add_wall", "arc_yz", "bow", "chances", "each", "eye", "few", "foot_of", "hung", "picks",
+    "piecemeal", "radius", "screwed", "section_of", "shuffled", "slab_yz", "standing", "strap", "upright",
 ]  # fmt: skip
 
 GROUP, FRAME = "Connection assembly", "Structural element"
@@ -187,6 +187,21 @@ def shuffled(items: Sequence[str], about: str) -> tuple[str, ...]:
     limits = f"{', '.join(items)} in some order"
     draw = lambda source, _: tuple(map(str, source.rng.permutation(list(items))))  # noqa: E731
     return dataclasses.field(metadata={"spec": Field(about, "", limits, draw, accept)})  # type: ignore[return-value]
+
+
+def each(draw: Callable[[np.random.Generator, Any, int], T], count: Callable[[Any], int], about: str) -> tuple[T, ...]:
+    """A field: a piece for each of several things, given which one it is."""
+
+    def sample(source: Source, before: Any) -> tuple[T, ...]:
+        rng = source.rng
+        return tuple(draw(rng, before, k) for k in range(count(before)))
+
+    def accept(value: Any, before: Any) -> tuple[T, ...]:
+        if len(value) != count(before):
+            raise ValueError(f"give {count(before)} values")
+        return tuple(value)
+
+    return dataclasses.field(metadata={"spec": Field(about, "", "one each", sample, accept)})  # type: ignore[return-value]
 
 
 def picks(items: Sequence[T], count: int | Callable[[Any], int], about: str, when: When | None = None) -> tuple[T, ...]:
@@ -362,7 +377,7 @@ _BEAM = ("portal", "tee", "column", "wall")
 
 
 class Below(Feet):
-    """What a support stands on: a concrete block, a post with a head plate, a portal, a T, an arm off a column or wall."""
+    """What a support stands on: a concrete block, a post with a head plate, a portal, a T, an arm off column or wall."""
 
     free: float = given(1.0, "height of the support over the floor", "m")
     size: float = among((0.05, 0.06, 0.08, 0.1, 0.12), "height of a section", "m")
