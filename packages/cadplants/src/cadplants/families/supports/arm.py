@@ -24,6 +24,7 @@ from cadplants.families.supports.shape import (
     few,
     foot_of,
     picks,
+    piece_of,
     radius,
     section_of,
     slab_yz,
@@ -77,9 +78,7 @@ class StrutArm(Bracket, name="bracket/strut arm"):
     ribbed: bool = chance(0.35, "a rib")
     capped: bool = chance(0.4, "a cap on the strut's end")
     tie: Tie = nested(Tie, "tie")
-    backing: _Backing = nested(
-        lambda s, p: _Backing.draw(s, {"holes": p.holes, "structure": p.structure}), "what it is bolted on"
-    )
+    backing: _Backing = piece_of(_Backing, "what it is bolted on", "holes", "structure")
 
     def build(self, t: Table) -> Model:
         r, s, top, thick, wide = t.pipe.radius, self.strut, -t.pipe.radius, 0.0025, self.wide

@@ -192,8 +192,8 @@ class MotorSlide(Fitting, name="bracket/motor slide", label=_B):
             for q in (-0.1, 0.1):
                 add_bolt(t.at(0.02 + q * length, s * gap / 2, top), d, foot, "none")
         motor = t.at(0, 0, top + r + 0.02)
-        side = outline(0.6 * r, 0, r, 0.02, r, 0.5 * length, 0.9 * r, 0.56 * length)
-        motor.at(-0.24 * length).along("x").add("motor", turned(side, t.n(r)))
+        shell = outline(0.6 * r, 0, r, 0.02, r, 0.5 * length, 0.9 * r, 0.56 * length)
+        motor.at(-0.24 * length).along("x").add("motor", turned(shell, t.n(r)))
         motor.at(0.3 * length).along("x").add("shaft", cylinder(0.16 * r, 0, 0.18 * length, few(0.1 * r, t.style)))
         if r <= inner:
             size, y = (0.24 * length, inner - 0.75 * r, 0.3 * r), (inner + 0.75 * r) / 2

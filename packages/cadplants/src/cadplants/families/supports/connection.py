@@ -60,10 +60,10 @@ class _Below(Params):
             for s in BOTH:
                 t.at(0, s * (span - 0.05)).add("post", post)
         else:
-            post = self.form == "post"
-            thick, wide, side = (0.012, 2.2 * self.side, 0.2) if post else (0.015, 0.2, 0.16)
+            square = self.form == "post"
+            thick, wide, side = (0.012, 2.2 * self.side, 0.2) if square else (0.015, 0.2, 0.16)
             section = section_i(0.1, 0.1, 0.006, 0.008)
-            if post:
+            if square:
                 section = rounded_rectangle(self.side, self.side, 0.1 * self.side, 2)
             t.add(self.form, extrude(section, low + thick, top - 0.01))
             t.add("base plate", box((wide, wide, thick), (0, 0, low + thick / 2)))

@@ -167,18 +167,14 @@ class Nuts(_Fasteners, name="nut/kinds", label="nut"):
     kinds: tuple[str, ...] = shuffled(_NUTS, "nuts; the first are there")
     count: int = whole(4, 8, "nuts that are there")
     thick: float = between(0.5, 1.5, "of the plate / diameter")
-    rows: int = whole(1, 2, "rows of nuts")
+    ranks: int = whole(1, 2, "rows of nuts")
     raised: bool = chance(0.5, "the plate is on feet")
     nuts: tuple[_NutOn, ...] = several(lambda rng, p: _NutOn.draw(rng, _pieces(p)), lambda p: p.count, "nuts")
 
     def build(self, t: Table) -> Model:
-        d, rows = self.size, self.rows
-        pitch, thick, columns, up = (
-            4.6 * d,
-            self.thick * d,
-            (self.count + rows - 1) // rows,
-            1.5 * d if self.raised else 0.0,
-        )
+        d, rows = self.size, self.ranks
+        pitch, thick, up = 4.6 * d, self.thick * d, 1.5 * d if self.raised else 0.0
+        columns = (self.count + rows - 1) // rows
         for k, (kind, nut) in enumerate(zip(self.kinds, self.nuts, strict=False)):
             spot = t.at((k % columns) * pitch, (k // columns) * pitch, thick + up).spun("z", nut.turn)
             flat = 0.16 * d if nut.washer else 0.0

@@ -139,9 +139,7 @@ class BracingCorner(_Joint, name="gusset plate/bracing corner"):
     heads: tuple[str, ...] = picks(_HEADS, lambda p: p.bolts, "heads of the bolts")
 
     def build(self, t: Table) -> Model:
-        size, tall, reach, thick, w, h, thin = (
-            self.size, self.tall, self.reach, self.thick, self.wide, self.high, self.thin,
-        )  # fmt: skip
+        size, tall, reach, thick, w, h = self.size, self.tall, self.reach, self.thick, self.wide, self.high
         z = tall - size / 2 if self.top else 0.02 + size / 2
         up = 1.0 if z < 0.5 * tall else -1.0
         x0, z0, clip = size / 2, z + up * size / 2, 0.3 * min(w, h)
@@ -161,9 +159,9 @@ class BracingCorner(_Joint, name="gusset plate/bracing corner"):
         end = mid + min(1.0, abs(limit) / abs(end[2] - mid[2])) * (end - mid)
         flat, d = self.brace == "flat", self.bolt
         section = {
-            "angle": section_angle(thin, 0.006) - np.array([0.0, 0.5 * thin]),
-            "channel": section_channel(thin, 0.5 * thin, 0.006, 0.006),
-            "flat": rounded_rectangle(0.01, thin, 0),
+            "angle": section_angle(self.thin, 0.006) - np.array([0.0, 0.5 * self.thin]),
+            "channel": section_channel(self.thin, 0.5 * self.thin, 0.006, 0.006),
+            "flat": rounded_rectangle(0.01, self.thin, 0),
         }[self.brace]
         t.at(0, -thick / 2 - 0.005 if flat else thick / 2).add("brace", bar(mid, end, section))
         way, grip = (end - mid) / np.linalg.norm(end - mid), thick + (0.01 if flat else 0.006)
@@ -187,8 +185,8 @@ class Haunch(_Joint, name="gusset plate/haunch"):
     long: float = between(1.0, 2.0, "length of the haunch / height of the beam")
     haunched: bool = chance(0.7, "a haunch")
     curved: bool = chance(0.3, "the haunch is a plate with a hollow edge", when=lambda p: p.haunched)
-    rows: int = whole(3, 5, "rows of bolts")
-    heads: tuple[str, ...] = picks(("hex", "flange"), lambda p: 2 * p.rows, "heads of the bolts")
+    lines: int = whole(3, 5, "rows of bolts")
+    heads: tuple[str, ...] = picks(("hex", "flange"), lambda p: 2 * p.lines, "heads of the bolts")
     clipped: bool = chance(0.6, "the stiffeners' corners are cut")
 
     def build(self, t: Table) -> Model:
@@ -207,7 +205,7 @@ class Haunch(_Joint, name="gusset plate/haunch"):
                 t.add("plate", bar(*ends, rounded_rectangle(b, f, 0)))
         low, top = under - (deep if self.haunched else 0.0) - 0.02, z + h / 2 + 0.02
         t.add("plate", box((thick, wide, top - low), (h / 2 + thick / 2, 0, (top + low) / 2)))
-        spots = [(s * 0.3 * wide, float(q)) for q in np.linspace(low + 0.05, top - 0.045, self.rows) for s in BOTH]
+        spots = [(s * 0.3 * wide, float(q)) for q in np.linspace(low + 0.05, top - 0.045, self.lines) for s in BOTH]
         for (y, q), head in zip(spots, self.heads, strict=True):
             add_bolt(t.at(h / 2 - f, y, q).spun("y", np.pi / 2), d, thick + f, head)
         half, w = (wide - web) / 2, (h - 2 * f) / 2
@@ -274,10 +272,10 @@ class Splice(_Joint, name="gusset plate/splice"):
     thick: float = among((0.006, 0.01), "of the cover plates", "m")
     bolt: float = among((0.012, 0.016), "diameter of the bolts", "m")
     gussets: bool = chance(0.5, "the covers are taken for gusset plates")
-    rows: int = whole(2, 3, "rows of bolts on either side")
+    lines: int = whole(2, 3, "rows of bolts on either side")
     covered: bool = chance(0.75, "cover plates, not end plates")
     heads: tuple[str, ...] = picks(
-        ("hex", "flange"), lambda p: 8 * p.rows, "heads of the bolts in the flanges", when=lambda p: p.covered
+        ("hex", "flange"), lambda p: 8 * p.lines, "heads of the bolts in the flanges", when=lambda p: p.covered
     )
     posts: tuple[str, ...] = picks(("post", "column"), 2, "what the posts are taken for")
 
@@ -299,15 +297,8 @@ class Splice(_Joint, name="gusset plate/splice"):
         return t.model()
 
     def _covers(self, t: Table, b: float, web: float, f: float) -> None:
-        h, level, thick, d, rows, name = (
-            self.high,
-            self.level,
-            self.thick,
-            self.bolt,
-            self.rows,
-            _G if self.gussets else "plate",
-        )
-        pitch, heads = 3.5 * d, iter(self.heads)
+        h, level, thick, d, rows = self.high, self.level, self.thick, self.bolt, self.lines
+        pitch, heads, name = 3.5 * d, iter(self.heads), _G if self.gussets else "plate"
         long, tall = 2 * (rows * pitch + d), 0.7 * (h - 2 * f)
         xs = [s * (0.7 * pitch + k * pitch) for s in BOTH for k in range(rows)]
         for s in BOTH:

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from cadplants.builder.device import families_of
-from cadplants.builder.params import among, between, chance, given, nested
+from cadplants.builder.params import among, between, chance, given
 from cadplants.builder.table import Table, outline
 from cadplants.families.supports.clamp import half_band
 from cadplants.families.supports.shape import (
@@ -23,6 +23,7 @@ from cadplants.families.supports.shape import (
     eye,
     few,
     hung,
+    piece_of,
     radius,
     section_of,
     slab_yz,
@@ -120,11 +121,7 @@ class _Attached(Feet):
 
 def _attached(when: Any = None) -> _Attached:
     """A field: how the rod holds on."""
-    return nested(
-        lambda s, p: _Attached.draw(s, {"height": p.height, "holes": p.holes, "structure": p.structure}),
-        "how the rod holds on above",
-        when=when,
-    )
+    return piece_of(_Attached, "how the rod holds on above", "height", "holes", "structure", when=when)
 
 
 class Hanger(Standing, bundle=_NAME, label=_NAME):
@@ -143,19 +140,9 @@ class Clevis(Hanger, name="pipe hanger/clevis"):
 
     def build(self, t: Table) -> Model:
         r, d = t.pipe.radius, _rod_of(self)
-        rim, wide, thick, up = (
-            r + (0.002 if self.shield else 0.0),
-            0.022 + 0.12 * r,
-            0.003 + 0.01 * r,
-            self.up * r + 0.025,
-        )
-        steps, middle, top, pin, half = (
-            max(6, few(r, t.style, 28) // 2),
-            rim + thick / 2,
-            up + self.top + d,
-            up - 0.012,
-            rim - 0.001,
-        )
+        rim, wide, thick = r + (0.002 if self.shield else 0.0), 0.022 + 0.12 * r, 0.003 + 0.01 * r
+        up, middle, half, steps = self.up * r + 0.025, rim + thick / 2, rim - 0.001, max(6, few(r, t.style, 28) // 2)
+        top, pin = up + self.top + d, up - 0.012
         bent = arc_yz(middle, np.pi, 2 * np.pi, steps)
         t.add(_NAME, strap(np.vstack([[[0, -middle, up]], bent, [[0, middle, up]]]), wide, thick))
         side = outline(half - thick / 2, pin - 0.012, half - thick / 2, pin + 0.01, self.neck * half, top)
@@ -209,11 +196,8 @@ class ThreeBolt(Hanger, name="pipe hanger/three-bolt"):
         r, d = t.pipe.radius, _rod_of(self)
         thick, wide, blade, ear = 0.005 + 0.02 * r, 0.03 + 0.22 * r, d, 2.6 * d
         start, end = r + thick + 0.8 * ear, r + thick + ear + 4.0 * d + self.arm
-        half, name, tip = (
-            half_band(r, thick, wide, ear, t.style, blade),
-            _NAME if self.hangers[0] else "clamp",
-            end + 0.2 * ear,
-        )
+        half, tip = half_band(r, thick, wide, ear, t.style, blade), end + 0.2 * ear
+        name = _NAME if self.hangers[0] else "clamp"
         for s in BOTH:
             link = box((wide, thick, tip - start), (0, s * (blade + thick) / 2, (start + tip) / 2))
             t.add(name, moved(half, spun("x", -s * np.pi / 2)), link)
@@ -259,11 +243,11 @@ class Roller(Hanger, name="pipe hanger/roller", sizes=SIZES[4:]):
         t.at(0, 0, z).along("y").add("bolt", cylinder(axle, -out - d, out + d, few(axle, t.style)), fine=False)
         if self.two:
             for s, has_eye in zip(BOTH, self.eyes, strict=True):
-                side = t.at(0, s * out)
+                end = t.at(0, s * out)
                 if has_eye:
-                    add_eye(side.at(0, 0, z), 0.9 * d, 0.4 * d)
-                add_rod(side, d, z + axle, drop)
-                add_nut(side, d, drop, up=False)
+                    add_eye(end.at(0, 0, z), 0.9 * d, 0.4 * d)
+                add_rod(end, d, z + axle, drop)
+                add_nut(end, d, drop, up=False)
             self.over.build(t, drop)
             return t.model()
         thick, wide, top = 0.004 + 0.015 * r, 0.03 + 0.15 * r, r + 0.02 + 0.3 * r

@@ -242,11 +242,11 @@ class Lantern(Fitting, name="bracket/lantern", label=_B):
     def _solids(self, n: int, low: float, high: float, thick: float) -> list[Solid]:
         r, hole, cast = self.radius, (circle(0.4 * self.radius, n),), 1.6 * thick
         if self.form == "plate":  # a U or a box of plate, open at its sides
-            side, middle = 2 * r * 1.05, (low + high) / 2
-            square = rounded_rectangle(side, side, 0)
+            span, middle = 2 * r * 1.05, (low + high) / 2
+            square = rounded_rectangle(span, span, 0)
             plates = [extrude(square, z, z + thick, hole) for z in (low, high - thick)]
-            window = rounded_rectangle(0.6 * side, 0.5 * (high - low), 0.1 * r, 3) + np.array([0.0, middle])
-            z0, z1, x, y = low + thick, high - thick, side / 2, side / 2 - thick / 2
+            window = rounded_rectangle(0.6 * span, 0.5 * (high - low), 0.1 * r, 3) + np.array([0.0, middle])
+            z0, z1, x, y = low + thick, high - thick, span / 2, span / 2 - thick / 2
             rim = outline(-x, z0, x, z0, x, z1, -x, z1)
             return [*plates, *(upright(rim, s * y - thick / 2, s * y + thick / 2, (window,)) for s in BOTH)]
         if self.form == "posts":
@@ -259,9 +259,9 @@ class Lantern(Fitting, name="bracket/lantern", label=_B):
             rib = box((0.5 * r, 0.16 * r, high - low - 2 * cast), (0.72 * r, 0, (low + high) / 2))
             return [*discs, around(rib, self.ribs)]
         # A bell: a cone whose quarters are cut away.
-        rib = outline(0.55 * r, high - cast, 0.8 * r, high - cast, 1.05 * r, low + cast, 0.6 * r, low + cast)
+        side = outline(0.55 * r, high - cast, 0.8 * r, high - cast, 1.05 * r, low + cast, 0.6 * r, low + cast)
         rings = [ring(0.4 * r, 1.1 * r, low, low + cast, n), ring(0.35 * r, 0.85 * r, high - cast, high, n)]
-        return [*rings, around(upright(rib, -0.2 * r, 0.2 * r), 4)]
+        return [*rings, around(upright(side, -0.2 * r, 0.2 * r), 4)]
 
 
 MOUNTS = families_of(Hinge, CornerAngles, MountingFeet, Lantern)

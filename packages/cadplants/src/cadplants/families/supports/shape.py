@@ -26,24 +26,24 @@ from cadplants.builder.params import (
     whole,
 )
 from cadplants.builder.table import Table
-from cadplants.family import Build, Family, Part
 from cadplants.families.chance import chance as happens
 from cadplants.families.chance import pick
 from cadplants.mesh_ops import Solid, about_x, extrude, merge, moved, sweep
 from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle, section_angle, section_channel, section_i
 from cadplants.primitives import bar, box, cylinder, dome, hexagon, ring, rope, torus
-from cadplants.standards import PIPES, SIZES
-from cadplants.transforms import at, spun
+from cadplants.standards import PIPES
+from cadplants.transforms import spun
 
 __all__ = [
-    "BOTH", "CORNERS", "GROUP", "Below", "Carrier", "Feet", "Fitting", "Footing", "Overhead", "Section", "Standing",
+    "BOTH", "CORNERS", "Below", "Carrier", "Feet", "Fitting", "Footing", "Overhead", "Section", "Standing",
     "add_bolt", "add_nuts", "add_wall", "arc_yz", "bow", "chances", "each", "eye", "few", "foot_of", "hung", "picks",
-    "piecemeal", "radius", "screwed", "section_of", "shuffled", "slab_yz", "standing", "strap", "upright",
+    "piece_of", "piecemeal", "radius", "screwed", "section_of", "shuffled", "slab_yz", "standing", "strap", "upright",
 ]  # fmt: skip
 
-GROUP, FRAME = "Connection assembly", "Structural element"
+_GROUP = "Connection assembly"
 T = TypeVar("T")
+P = TypeVar("P", bound=Params)
 Point = Sequence[float]
 BOTH = (-1, 1)
 CORNERS = tuple((x, y) for x in BOTH for y in BOTH)
@@ -186,7 +186,7 @@ def shuffled(items: Sequence[str], about: str) -> tuple[str, ...]:
 
     limits = f"{', '.join(items)} in some order"
     draw = lambda source, _: tuple(map(str, source.rng.permutation(list(items))))  # noqa: E731
-    return dataclasses.field(metadata={"spec": Field(about, "", limits, draw, accept)})  # type: ignore[return-value]
+    return dataclasses.field(metadata={"spec": Field(about, "", limits, draw, accept)})  # type: ignore[no-any-return]
 
 
 def each(draw: Callable[[np.random.Generator, Any, int], T], count: Callable[[Any], int], about: str) -> tuple[T, ...]:
@@ -201,7 +201,7 @@ def each(draw: Callable[[np.random.Generator, Any, int], T], count: Callable[[An
             raise ValueError(f"give {count(before)} values")
         return tuple(value)
 
-    return dataclasses.field(metadata={"spec": Field(about, "", "one each", sample, accept)})  # type: ignore[return-value]
+    return dataclasses.field(metadata={"spec": Field(about, "", "one each", sample, accept)})  # type: ignore[no-any-return]
 
 
 def picks(items: Sequence[T], count: int | Callable[[Any], int], about: str, when: When | None = None) -> tuple[T, ...]:
@@ -216,6 +216,11 @@ def chances(share: float, count: int | Callable[[Any], int], about: str, when: W
     return several(lambda rng, _: happens(rng, share), number, about, when=when)
 
 
+def piece_of(kind: type[P], about: str, *said: str, when: When | None = None) -> P:
+    """A field: a piece that is told some of the fields before, by their names."""
+    return nested(lambda s, p: kind.draw(s, {name: getattr(p, name) for name in said}), about, when=when)
+
+
 class Feet(Params):
     """Of what has feet on the floor: what the style says of those."""
 
@@ -223,7 +228,7 @@ class Feet(Params):
     structure: str | None = styled(None, "how fine structures are")
 
 
-class Carrier(Device, place="carrier", group=GROUP, grain="structure"):
+class Carrier(Device, place="carrier", group=_GROUP, grain="structure"):
     """What holds a line."""
 
     height: float = given(1.1, "of the line's axis over the floor", "m")
@@ -233,7 +238,7 @@ class Standing(Carrier, Feet):
     """What holds a line and has feet, or may have."""
 
 
-class Fitting(Device, place="floor", group=GROUP, sizes=(15,), grain="fitting"):
+class Fitting(Device, place="floor", group=_GROUP, sizes=(15,), grain="fitting"):
     """Fittings that stand on the floor with what they hold together."""
 
 
@@ -338,7 +343,7 @@ def _feet(p: Any) -> dict[str, Any]:
 
 def foot_of(about: str = "foot", when: When | None = None) -> Footing:
     """A field: the foot of something."""
-    return nested(lambda s, p: Footing.draw(s, _feet(p)), about, when=when)
+    return piece_of(Footing, about, "holes", "structure", when=when)
 
 
 class _Leg(Feet):
@@ -377,7 +382,7 @@ _BEAM = ("portal", "tee", "column", "wall")
 
 
 class Below(Feet):
-    """What a support stands on: a concrete block, a post with a head plate, a portal, a T, an arm off column or wall."""
+    """What a support stands on: a concrete block, a post with a plate, a portal, a T, an arm off column or wall."""
 
     free: float = given(1.0, "height of the support over the floor", "m")
     size: float = among((0.05, 0.06, 0.08, 0.1, 0.12), "height of a section", "m")
@@ -385,9 +390,7 @@ class Below(Feet):
     wide: float = between(0.1, 0.3, "width of the block - of the support", "m", when=_block)
     deep: float = between(0.15, 0.4, "depth of the block", "m", when=_block)
     head: float = among((0.006, 0.01, 0.012), "thickness of the post's head plate", "m", when=_on("post"))
-    over: float = between(
-        0.12, 0.5, "how far its beam reaches past the support", "m", when=_on(*_BEAM)
-    )
+    over: float = between(0.12, 0.5, "how far its beam reaches past the support", "m", when=_on(*_BEAM))
     section: Section = section_of("section of its beam", when=_on(*_BEAM))
     leg: _Leg = nested(_leg_of, "its post, or each", when=_on("post", "portal", "tee"))
     rise: float = between(0.1, 0.8, "of the column over the support", "m", when=_on("column"))
@@ -430,9 +433,7 @@ class Below(Feet):
 
 def standing(depth: Callable[[Any], float], when: When | None = None) -> Below:
     """A field: what a carrier stands on, whose underside is this far below the line's axis [m]."""
-    return nested(
-        lambda s, p: Below.draw(s, {"free": p.height - depth(p), **_feet(p)}), "what it stands on", when=when
-    )
+    return nested(lambda s, p: Below.draw(s, {"free": p.height - depth(p), **_feet(p)}), "what it stands on", when=when)
 
 
 def _beside(p: Any) -> bool:
@@ -472,75 +473,7 @@ def hung(half: float | Callable[[Any], float] = 0.0, when: When | None = None) -
     """A field: what a hanger hangs from that is half this wide across the line [m]."""
     wide = half if callable(half) else lambda _: half
     return nested(
-        lambda s, p: Overhead.draw(s, {"height": p.height, "half": wide(p), **_feet(p)}), "what it hangs from", when=when
+        lambda s, p: Overhead.draw(s, {"height": p.height, "half": wide(p), **_feet(p)}),
+        "what it hangs from",
+        when=when,
     )
-
-
-# --- for families that are no classes of parameters yet ---
-
-
-def piece(solid: Solid, name: str, bundle: str = "", color: str = "clamp", fine: bool = False) -> Part:
-    """A part of the connection itself."""
-    return Part(solid, name, color, bundle, "", fine)
-
-
-def framed(solid: Solid, name: str, color: str = "steel") -> Part:
-    """A part of the structure around it."""
-    return Part(solid, name, color, "", FRAME)
-
-
-def coarse(style: ModelingStyle) -> bool:
-    return style.grain("structure") == "one"
-
-
-def _said(style: ModelingStyle) -> dict[str, Any]:
-    return {"holes": style.holes, "structure": style.structure}
-
-
-def nut_parts(spots, d, style, bundle="", washer=True, twice=False):
-    t = Table(style, GROUP, bundle)
-    add_nuts(t, spots, d, washer, twice)
-    return t.parts
-
-
-def bolt_parts(d, grip, pose, style, bundle="", head="hex"):
-    t = Table(style, GROUP, bundle)
-    add_bolt(t.moved(pose), d, grip, head)
-    return t.parts
-
-
-def screwed_parts(d, grip, x, y, z, style, head="none"):
-    return bolt_parts(d, grip, at(x, y, z) @ spun("x", np.pi / 2), style, "", head)
-
-
-def member(size, style, rng, flat=False):
-    return Section.draw(rng, {"flat": flat}).outline(size, style)
-
-
-def footing(side, shaft, style, rng):
-    t = Table(style, GROUP)
-    foot = Footing.draw(rng, _said(style))
-    foot.build(t, side, shaft)
-    return t.parts, foot.top
-
-
-def below(top, height, half, style, rng):
-    t = Table(style, GROUP)
-    Below.draw(rng, {**_said(style), "free": top + height}).build(t, top, half)
-    return t.parts
-
-
-def overhead(low, height, half, style, rng):
-    t = Table(style, GROUP)
-    Overhead.draw(rng, {**_said(style), "height": height, "half": half}).build(t, low)
-    return t.parts
-
-
-def carrier(name: str, build: object, sizes: tuple[int, ...] = SIZES, weight: float = 1.0) -> Family:
-    """A family that holds a line."""
-    return Family(name, "carrier", GROUP, name.split("/")[0], build, sizes, "structure", weight)  # type: ignore[arg-type]
-
-
-def floor_family(name: str, build: Build, whole: str, weight: float = 1.0) -> Family:
-    """A family of fittings that stand on the floor with what they hold together."""
-    return Family(name, "floor", GROUP, whole, build, (15,), "fitting", weight)

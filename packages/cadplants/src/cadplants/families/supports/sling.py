@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from cadplants.builder.device import families_of
-from cadplants.builder.params import among, between, chance, given, nested
+from cadplants.builder.params import among, between, chance, given
 from cadplants.builder.table import Table, outline
 from cadplants.families.supports.clamp import half_band
 from cadplants.families.supports.hanger import Hanger, add_eye, add_nut, add_rod, add_upright_clamp
@@ -20,6 +20,7 @@ from cadplants.families.supports.shape import (
     eye,
     few,
     hung,
+    piece_of,
     radius,
     slab_yz,
     strap,
@@ -64,11 +65,7 @@ class _Ceiling(Feet):
 
 def _ceiling(when: Any = None) -> _Ceiling:
     """A field: what a rod ends at."""
-    return nested(
-        lambda s, p: _Ceiling.draw(s, {"height": p.height, "holes": p.holes, "structure": p.structure}),
-        "what the rod ends at",
-        when=when,
-    )
+    return piece_of(_Ceiling, "what the rod ends at", "height", "holes", "structure", when=when)
 
 
 class Constant(Hanger, name="pipe hanger/constant", sizes=SIZES[5:]):
@@ -211,13 +208,8 @@ class Band(Hanger, name="pipe hanger/band"):
 
     def build(self, t: Table) -> Model:
         r, d = t.pipe.radius, 0.006
-        thick, wide, steps, high = (
-            0.0012 + 0.006 * r,
-            0.017 + 0.1 * r,
-            max(8, few(r, t.style, 28) // 2),
-            1.5 * r + 0.09 + self.high,
-        )
-        middle = r + thick / 2
+        thick, wide, steps = 0.0012 + 0.006 * r, 0.017 + 0.1 * r, max(8, few(r, t.style, 28) // 2)
+        middle, high = r + thick / 2, 1.5 * r + 0.09 + self.high
         if self.joist:
             low, tip = arc_yz(middle, np.pi, 2 * np.pi, steps), high + 0.08
             t.add(_NAME, strap(np.vstack([[[0, -middle, tip]], low, [[0, middle, tip]]]), wide, thick))
