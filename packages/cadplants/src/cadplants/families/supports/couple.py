@@ -2,349 +2,273 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
+from cadplants.builder.device import families_of
+from cadplants.builder.params import Params, among, between, chance, given, several, whole
+from cadplants.builder.table import Table, outline
 from cadplants.families.supports.shape import (
-    GROUP,
+    BOTH,
+    CORNERS,
+    Fitting,
+    add_bolt,
     arc_yz,
-    bolt_parts,
     few,
-    floor_family,
-    framed,
-    piece,
+    picks,
     slab_yz,
     strap,
     upright,
 )
-from cadplants.family import Family, Model, Part
+from cadplants.family import Model
 from cadplants.mesh_ops import Solid, extrude, merge, moved, tube
-from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle, section_channel, section_i
 from cadplants.primitives import along, bar, box, cylinder, hexagon, ring
-from cadplants.standards import PIPES, SIZES
+from cadplants.standards import SIZES
 from cadplants.transforms import at, spun
 
 __all__ = ["COUPLES"]
 
 
-def _hose_clamp(kind: int, out: float, t: float, wide: float, n: int, twin: bool) -> list[tuple[str, Solid]]:
-    """A clamp round x over a hose of radius ``out``: its band, what closes it on top, its screw [m]."""
-    band = along("x", ring(out, out + t, -wide / 2, wide / 2, n))
-    b = 0.35 * wide + 0.002
-    if kind == 0:  # a housing with a screw across
-        house = merge(
-            [
-                box((1.15 * wide, 3.2 * b, 1.5 * b), (0, 0, out + t + 0.7 * b)),
-                along("y", cylinder(0.75 * b, -1.6 * b, 1.6 * b, 10), 0, 0, out + t + 1.2 * b),
-            ]
-        )
-        screw = merge(
-            [
-                along("y", cylinder(0.5 * b, 1.5 * b, 3.4 * b, 8), 0, 0, out + t + 1.2 * b),
-                along("y", hexagon(1.5 * b, 2.0 * b, 3.4 * b), 0, 0, out + t + 1.2 * b),
-            ]
-        )
-        solids = [("clamp", merge([band, house])), ("screw", screw)]
-    elif kind == 1:  # trunnions and a bolt
-        lugs = [
-            along("x", cylinder(0.8 * b, -0.6 * wide, 0.6 * wide, 10), 0, q * 2.2 * b, out + t + 0.6 * b)
-            for q in (-1, 1)
-        ]
-        bolt = merge(
-            [
-                along("y", cylinder(0.35 * b, -3.5 * b, 4 * b, 8), 0, 0, out + t + 0.6 * b),
-                along("y", hexagon(1.3 * b, 3.0 * b, 3.7 * b), 0, 0, out + t + 0.6 * b),
-            ]
-        )
-        solids = [("clamp", merge([band, *lugs])), ("bolt", bolt)]
-    elif kind == 2:  # pinched ears
-        ears = [
-            slab_yz(
-                [
-                    [q * 0.3 * b - b, 0],
-                    [q * 0.3 * b + b, 0],
-                    [q * 0.1 * b + 0.3 * b, 1.6 * b],
-                    [q * 0.1 * b - 0.3 * b, 1.6 * b],
-                ],
-                -wide / 2,
-                wide / 2,
-            )
-            for q in (0,)
-        ]
-        ear = moved(merge(ears), at(0, 0, out + 0.5 * t))
-        both = [ear, moved(ear, spun("x", np.pi))] if twin else [ear]
-        solids = [("clamp", merge([band, *both]))]
-    else:  # a doubled wire with a screw block
-        wires = [along("x", ring(out, out + 2 * t, q - t, q + t, n)) for q in (-0.35 * wide, 0.35 * wide)]
-        block = box((wide, 2 * b, 2 * b), (0, 0, out + 2 * t + 0.8 * b))
-        screw = along(
-            "y",
-            merge([cylinder(0.4 * b, -1.5 * b, 3 * b, 8), cylinder(0.8 * b, 3 * b, 3.6 * b, 8)]),
-            0,
-            0,
-            out + 2 * t + b,
-        )
-        solids = [("clamp", merge([*wires, block])), ("screw", screw)]
-    return solids
+class _HoseClamp(Params):
+    """A clamp round a hose along x."""
+
+    turn: float = between(0, 6, "where its screw is", "rad")
+    twin: bool = chance(0.6, "two ears, of a clamp with ears")
+
+    def build(self, t: Table, form: str, out: float, thick: float, wide: float, n: int) -> None:
+        """Puts it down: its band, what closes it on top, its screw.
+
+        Args:
+            t: with the frame.
+            form: how it is closed.
+            out: radius of the hose [m].
+            thick: of the band [m].
+            wide: width of the band [m].
+            n: sides of the band.
+        """
+        t = t.spun("x", self.turn)
+        band, b, top = along("x", ring(out, out + thick, -wide / 2, wide / 2, n)), 0.35 * wide + 0.002, out + thick
+        if form == "worm drive":  # a housing with a screw across
+            axis = top + 1.2 * b
+            house = box((1.15 * wide, 3.2 * b, 1.5 * b), (0, 0, top + 0.7 * b))
+            t.add("clamp", band, house, along("y", cylinder(0.75 * b, -1.6 * b, 1.6 * b, 10), 0, 0, axis))
+            screw = [cylinder(0.5 * b, 1.5 * b, 3.4 * b, 8), hexagon(1.5 * b, 2.0 * b, 3.4 * b)]
+            t.at(0, 0, axis).along("y").add("screw", *screw)
+        elif form == "trunnions":  # and a bolt
+            axis, lug = top + 0.6 * b, cylinder(0.8 * b, -0.6 * wide, 0.6 * wide, 10)
+            t.add("clamp", band, *(along("x", lug, 0, q * 2.2 * b, axis) for q in BOTH))
+            bolt = [cylinder(0.35 * b, -3.5 * b, 4 * b, 8), hexagon(1.3 * b, 3.0 * b, 3.7 * b)]
+            t.at(0, 0, axis).along("y").add("bolt", *bolt)
+        elif form == "ears":  # pinched
+            side = outline(-b, 0, b, 0, 0.3 * b, 1.6 * b, -0.3 * b, 1.6 * b)
+            ear = moved(slab_yz(side, -wide / 2, wide / 2), at(0, 0, out + 0.5 * thick))
+            t.add("clamp", band, ear, *([moved(ear, spun("x", np.pi))] if self.twin else []))
+        else:  # a doubled wire with a screw block
+            top += thick
+            wires = [along("x", ring(out, top, q - thick, q + thick, n)) for q in (-0.35 * wide, 0.35 * wide)]
+            t.add("clamp", *wires, box((wide, 2 * b, 2 * b), (0, 0, top + 0.8 * b)))
+            screw = [cylinder(0.4 * b, -1.5 * b, 3 * b, 8), cylinder(0.8 * b, 3 * b, 3.6 * b, 8)]
+            t.at(0, 0, top + b).along("y").add("screw", *screw)
 
 
-def _hose(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class Hose(Fitting, name="clamp/hose", place="end", label="clamp", bundle="clamp", sizes=SIZES[:9], grain="structure"):
     """A hose pushed on the end of a pipe and held by clamps: worm drive (DIN 3017), trunnions, ears, wire."""
-    r = PIPES[dn].radius
-    n, wall = style.round(r), 0.003 + 0.08 * r
-    out, over, reach = r + wall, 1.2 * r + 0.03, float(rng.uniform(4, 12)) * r + 0.05
-    swing = float(rng.uniform(0, 0.35)) * reach
-    s = np.linspace(0, 1, 9)[1:]
-    path = np.vstack(
-        [
-            np.array([[-over, 0.0, 0.0], [0.0, 0.0, 0.0]]),
-            np.column_stack([reach * s, np.zeros(8), -swing * (1 - np.cos(np.pi * s / 2)) * s]),
-        ]
-    )
-    hose = tube(path, out, r if style.hollow else 0.0, n)
-    parts = [Part(hose, "hose", "rubber", "", "Pipe assembly")]
-    kind, t = int(rng.integers(4)), 0.0008 + 0.008 * r
-    wide = 0.009 + 0.06 * r
-    for x in (-0.5 * over,) if rng.random() < 0.6 else (-0.7 * over, -0.25 * over):
-        turn = at(x) @ spun("x", float(rng.uniform(0, 6)))
-        solids = _hose_clamp(kind, out, t, wide, n, bool(rng.random() < 0.6))
-        for name, solid in solids:
-            parts.append(
-                piece(moved(solid, turn), name, "clamp", "clamp" if name == "clamp" else "fastener", name != "clamp")
-            )
-    return Model(parts)
+
+    reach: float = between(4, 12, "length of the hose - 50 mm / radius of the line")
+    swing: float = between(0, 0.35, "how far it hangs down / its length")
+    form: str = among(("worm drive", "trunnions", "ears", "wire"), "how the clamps are closed")
+    one: bool = chance(0.6, "one clamp")
+    clamps: tuple[_HoseClamp, ...] = several(lambda rng, _: _HoseClamp.draw(rng), lambda p: 1 if p.one else 2, "clamps")
+
+    def build(self, t: Table) -> Model:
+        r = t.pipe.radius
+        n, out, over, reach = t.n(r), r + (0.003 + 0.08 * r), 1.2 * r + 0.03, self.reach * r + 0.05
+        s = np.linspace(0, 1, 9)[1:]
+        sag = -self.swing * reach * (1 - np.cos(np.pi * s / 2)) * s
+        path = np.vstack([[(-over, 0.0, 0.0), (0.0, 0.0, 0.0)], np.column_stack([reach * s, np.zeros(8), sag])])
+        t.add("hose", tube(path, out, r if t.style.hollow else 0.0, n))
+        for x, clamp in zip((-0.5,) if self.one else (-0.7, -0.25), self.clamps, strict=True):
+            clamp.build(t.at(x * over), self.form, out, 0.0008 + 0.008 * r, 0.009 + 0.06 * r, n)
+        return t.model()
 
 
-def _coupler(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class Coupler(Fitting, name="clamp/coupler", label="clamp", bundle="clamp"):
     """A frame of tubes (48.3 mm) in right-angle, swivel and parallel couplers (EN 74)."""
-    r = float(rng.choice([0.02415, 0.02415, 0.0169, 0.0213]))
-    n = style.round(r)
-    high, span = float(rng.uniform(0.9, 1.8)), float(rng.uniform(0.7, 1.5))
-    t, wide = 0.006, 1.6 * r
-    gap = r + t
-    parts: list[Part] = []
-    slope = float(rng.choice([0.0, 0.0, 0.5, -0.7]))
-    slope = float(np.sign(slope)) * min(abs(slope), float(np.arctan(0.6 * high / span)))
-    posts = [0.0, span]
-    wall = 0.0032 if style.hollow else r
-    for x in posts:
-        parts.append(framed(moved(ring(r - wall, r, 0.006, high, n), at(x)), "post"))
-        parts.append(framed(box((5 * r, 5 * r, 0.006), (x, 0, 0.003)), "base plate"))
-    y = 2 * gap
-    levels = [0.85 * high] if slope else sorted({0.9 * high, round(float(rng.uniform(0.3, 0.6)) * high, 3)})
-    clamp = []
-    steps = max(6, n // 2)
-    for q in (0, 1):  # two halves round z, with flanges where the bolt sits
-        half = strap(arc_yz(r + t / 2, q * np.pi + 0.06, (q + 1) * np.pi - 0.06, steps), wide, t)
-        clamp.append(moved(half, spun("y", np.pi / 2)))
-    ears = [box((0.022, 0.006, 0.8 * wide), (r + t + 0.008, q * 0.006, 0)) for q in (-1, 1)]
-    pin = cylinder(0.005, -0.5 * wide, 0.5 * wide, 8)
-    hinge = moved(
-        merge([ring(0.005, 0.01, q * wide / 3 - wide / 6, q * wide / 3 + wide / 6 - 0.001, 8) for q in (-1, 0, 1)]),
-        at(-r - t - 0.006),
+
+    radius: float = among((0.02415, 0.02415, 0.0169, 0.0213), "of the tubes", "m")
+    high: float = between(0.9, 1.8, "height of the posts", "m")
+    span: float = between(0.7, 1.5, "from post to post", "m")
+    lean: float = among((0.0, 0.0, 0.5, -0.7), "of a slanting tube, at most", "rad")
+    second: float = between(0.3, 0.6, "height of a second level tube / of the posts", when=lambda p: not p.lean)
+    taken: tuple[str, ...] = picks(
+        ("beam", "railing"), 2, "what the level tubes are taken for, lower first", when=lambda p: not p.lean
     )
-    one = merge([clamp[0], clamp[1], *ears, hinge])
-    screw = merge(
-        [
-            along("y", cylinder(0.006, -0.03, 0.026, 8), r + t + 0.01),
-            along("y", hexagon(0.022, 0.01, 0.02), r + t + 0.01),
-            along("y", cylinder(0.012, -0.014, -0.009, 10), r + t + 0.01),
-        ]
-    )
-    for z in levels:
-        rise = np.tan(slope) * span if slope else 0.0
-        low = z - abs(rise) if rise > 0 else z
-        a, b = (
-            np.array([-0.15, y, low - 0.15 * np.tan(slope)]),
-            np.array([span + 0.15, y, low + rise + 0.15 * np.tan(slope)]),
-        )
-        parts.append(
-            framed(
-                bar(a, b, circle(r, n), (circle(r - wall, n),) if style.hollow else ()),
-                str(rng.choice(["beam", "railing"])) if not slope else "brace",
-            )
-        )
-        for x in posts:
-            zx = low + rise * x / span
-            lying = at(x, y, zx) @ spun("y", np.pi / 2 - slope)
-            parts += [
-                piece(moved(one, at(x, 0, zx)), "clamp", "clamp"),
-                piece(moved(one, lying), "clamp", "clamp"),
-                piece(moved(pin, at(x - r - t - 0.006, 0, zx)), "bolt", "clamp", "fastener", True),
-                piece(moved(screw, at(x, 0, zx)), "bolt", "clamp", "fastener", True),
-                piece(moved(screw, lying), "bolt", "clamp", "fastener", True),
-            ]
-    return Model(parts)
+
+    def build(self, t: Table) -> Model:
+        r, n, high, span, thick = self.radius, t.n(self.radius), self.high, self.span, 0.006
+        wall = 0.0032 if t.style.hollow else r
+        for x in (0.0, span):
+            t.at(x).add("post", ring(r - wall, r, 0.006, high, n))
+            t.add("base plate", box((5 * r, 5 * r, 0.006), (x, 0, 0.003)))
+        slope = float(np.sign(self.lean)) * min(abs(self.lean), float(np.arctan(0.6 * high / span)))
+        levels = [0.85 * high] if slope else sorted({0.9 * high, round(self.second * high, 3)})
+        y, hinge_x, grade = 2 * (r + thick), -r - thick - 0.006, np.tan(slope)
+        one, screw, rise = self._clamp(n), self._screw(), grade * span
+        pin, bore = cylinder(0.005, -0.8 * r, 0.8 * r, 8), (circle(r - wall, n),) if t.style.hollow else ()
+        for z, name in zip(levels, self.taken or ("brace",), strict=False):
+            low = z - max(rise, 0.0)
+            ends = (-0.15, y, low - 0.15 * grade), (span + 0.15, y, low + rise + 0.15 * grade)
+            t.add(name, bar(*ends, circle(r, n), bore), of="steel")
+            for x in (0.0, span):
+                height = low + rise * x / span
+                standing, lying = t.at(x, 0, height), t.at(x, y, height).spun("y", np.pi / 2 - slope)
+                standing.add("clamp", one)
+                lying.add("clamp", one)
+                standing.at(hinge_x).add("bolt", pin)
+                standing.add("bolt", screw)
+                lying.add("bolt", screw)
+        return t.model()
+
+    def _clamp(self, n: int) -> Solid:
+        """A clamp about z: two halves with flanges where the bolt sits, and a hinge."""
+        r, thick, wide = self.radius, 0.006, 1.6 * self.radius
+        arcs = [arc_yz(r + thick / 2, a + 0.06, a + np.pi - 0.06, max(6, n // 2)) for a in (0.0, np.pi)]
+        halves = [moved(strap(arc, wide, thick), spun("y", np.pi / 2)) for arc in arcs]
+        ears = [box((0.022, 0.006, 0.8 * wide), (r + thick + 0.008, q * 0.006, 0)) for q in BOTH]
+        third = wide / 3
+        hinge = [ring(0.005, 0.01, q * third - third / 2, q * third + third / 2 - 0.001, 8) for q in (-1, 0, 1)]
+        return merge([*halves, *ears, moved(merge(hinge), at(-r - thick - 0.006))])
+
+    def _screw(self) -> Solid:
+        solids = (cylinder(0.006, -0.03, 0.026, 8), hexagon(0.022, 0.01, 0.02), cylinder(0.012, -0.014, -0.009, 10))
+        return along("y", merge(solids), self.radius + 0.016)
 
 
-def _cleat_solids(kind: int, q: float, wide: float) -> tuple[list[Solid], list[float], float]:
-    """A cleat over cables of radius ``q`` that lie on z = 0, where its bolts go and what they clamp [m]."""
-    t = 0.003
-    if kind == 0:
-        ear, knee = 2 * q + 0.02, np.pi / 6
-        right = arc_yz(q + t / 2, -0.25, knee, 4, q, q)
-        crown = arc_yz(q + t / 2, knee, np.pi - knee, 6, 0.0, q + np.sqrt(3) * q)
-        left = (right * (1, -1, 1))[::-1]
-        foot = [[0, 2 * q + t / 2 + 0.002, t / 2], [0, 2 * q + ear, t / 2]]
-        path = np.vstack([foot[::-1], right[1:], crown, left[:-1], [[0, -y, z] for _, y, z in foot]])
-        solids = [strap(path, wide, t)]
-        spots = [-2 * q - 0.6 * ear, 2 * q + 0.6 * ear]
-        grip = t
-    elif kind == 1:
-        a = np.linspace(0, np.pi, 9)
-        reach = q + 0.014
-        hollow = np.column_stack([q * np.cos(a), q * np.sin(a)])[::-1]
-        upper = slab_yz(
-            [
-                [-reach, 0.0005],
-                *hollow[1:-1],
-                [reach, 0.0005],
-                [reach, 0.6 * q],
-                [0.5 * reach, q + 0.006],
-                [-0.5 * reach, q + 0.006],
-                [-reach, 0.6 * q],
-            ],
-            -wide / 2,
-            wide / 2,
-        )
-        lower = slab_yz(
-            [
-                [-reach, -0.0005],
-                *(hollow[1:-1] * (1, -1)),
-                [reach, -0.0005],
-                [reach, -q - 0.004],
-                [-reach, -q - 0.004],
-            ],
-            -wide / 2,
-            wide / 2,
-        )
-        solids = [moved(upper, at(0, 0, q + 0.004)), moved(lower, at(0, 0, q + 0.004))]
-        spots, grip = [-reach + 0.006, reach - 0.006], 1.6 * q + 0.004
-    else:
-        path = np.vstack(
-            [
-                [[0, q + 0.02, t / 2]],
-                [[0, q + t / 2, t / 2]],
-                arc_yz(q + t / 2, 0, np.pi, 8, 0.0, q + 0.004),
-                [[0, -q - t / 2, t / 2], [0, -q - 0.02, t / 2]],
-            ]
-        )
-        solids = [strap(path, wide, t)]
-        spots, grip = [-q - 0.012, q + 0.012], t
-    return solids, spots, grip
+_CLEATS = ("trefoil", "blocks", "strap")
 
 
-def _cleat(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class _Rung(Params):
+    """A strut across cables with the cleats on it."""
+
+    pieces: int = given(1, "pieces of the cleats on it")
+    taken: str = among(("beam", "beam", "plate"), "what it is taken for")
+    materials: tuple[str, ...] = picks(("clamp", "clamp", "rubber"), lambda p: p.pieces, "materials of the cleats")
+
+
+class Cleat(Fitting, name="clamp/cleat", label="clamp", bundle="clamp"):
     """Cables in cleats (IEC 61914) on a ladder or struts: trefoil of sheet, blocks, straps."""
-    q = float(rng.uniform(0.012, 0.032))
-    n = few(q, style, 20)
-    length, pitch, high = float(rng.uniform(1.0, 2.2)), float(rng.uniform(0.3, 0.5)), float(rng.uniform(0.3, 1.2))
-    kind = int(rng.integers(3))
-    parts: list[Part] = []
-    top = high
-    centers = [(-q, q), (q, q), (0.0, q + np.sqrt(3) * q)] if kind == 0 else [(0.0, q + 0.004)]
-    rows = [0.0] if kind == 0 else [k * (2 * q + 0.03) for k in range(int(rng.integers(1, 4)))]
-    for y0 in rows:
-        for y, z in centers:
-            cable = along("x", cylinder(q, -length / 2, length / 2, n), 0, y0 + y, top + z)
-            parts.append(Part(cable, "cable", "rubber", "", "Electrical and safety"))
-    xs = np.arange(-length / 2 + 0.12, length / 2 - 0.08, pitch)
-    middle = float(np.mean(rows))
-    half = (rows[-1] - rows[0]) / 2 + 3 * q + 0.06
-    wide = 0.03 + 0.5 * q
-    for x in xs:
-        rung = section_channel(0.041, 0.041, 0.0025, 0.0025) @ np.array([[0.0, -1.0], [1.0, 0.0]])
-        parts.append(
-            framed(
-                bar((x, middle - half, top), (x, middle + half, top), rung),
-                str(rng.choice(["beam", "beam", "plate"])),
-                "clamp",
-            )
-        )
-        for y0 in rows:
-            solids, spots, grip = _cleat_solids(kind, q, wide)
-            for solid in solids:
-                parts.append(
-                    piece(
-                        moved(solid, at(float(x), y0, top)),
-                        "clamp",
-                        "clamp",
-                        str(rng.choice(["clamp", "clamp", "rubber"])),
-                    )
-                )
-            for y in spots:
-                parts += bolt_parts(0.006, grip, at(float(x), y0 + y, top), style, "clamp", "none")
-    for s in (-1, 1):
-        rail = box((length, 0.004, 0.06), (0, middle + s * (half + 0.002), top - 0.02))
-        parts.append(framed(rail, "beam", "clamp"))
-        for x in (-0.35 * length, 0.35 * length):
-            parts.append(
-                framed(box((0.05, 0.05, top - 0.05), (x, middle + s * (half - 0.02), (top - 0.05) / 2)), "post")
-            )
-    return Model(parts)
+
+    radius: float = between(0.012, 0.032, "of a cable", "m")
+    long: float = between(1.0, 2.2, "length of the cables", "m")
+    pitch: float = between(0.3, 0.5, "from strut to strut", "m")
+    high: float = between(0.3, 1.2, "height of the struts", "m")
+    form: str = among(_CLEATS, "how the cleats are made")
+    cables: int = whole(1, 3, "cables side by side", when=lambda p: p.form != "trefoil", otherwise=1)
+    rungs: tuple[_Rung, ...] = several(
+        lambda rng, p: _Rung.draw(rng, {"pieces": p.cables * (2 if p.form == "blocks" else 1)}),
+        lambda p: len(Cleat.places(p)),
+        "struts",
+    )
+
+    @staticmethod
+    def places(p: Any) -> np.ndarray:
+        """Where the struts are along the cables [m]."""
+        return np.arange(-p.long / 2 + 0.12, p.long / 2 - 0.08, p.pitch)
+
+    def build(self, t: Table) -> Model:
+        q, length, top = self.radius, self.long, self.high
+        trefoil, n, step = self.form == "trefoil", few(q, t.style, 20), 2 * q + 0.03
+        rows, high = [k * step for k in range(self.cables)], q + np.sqrt(3) * q
+        for row in rows:
+            for y, z in ((-q, q), (q, q), (0.0, high)) if trefoil else ((0.0, q + 0.004),):
+                t.at(0, row + y, top + z).along("x").add("cable", cylinder(q, -length / 2, length / 2, n))
+        middle, half = float(np.mean(rows)), (rows[-1] - rows[0]) / 2 + 3 * q + 0.06
+        solids, spots, grip = self._cleat(0.03 + 0.5 * q)
+        section = section_channel(0.041, 0.041, 0.0025, 0.0025) @ np.array([[0.0, -1.0], [1.0, 0.0]])
+        for x, rung in zip(self.places(self), self.rungs, strict=True):
+            spot, materials = t.at(float(x), 0, top), iter(rung.materials)
+            t.add(rung.taken, bar((x, middle - half, top), (x, middle + half, top), section), of="clamp")
+            for row in rows:
+                for solid in solids:
+                    spot.at(0, row).add("clamp", solid, of=next(materials))
+                for y in spots:
+                    add_bolt(spot.at(0, row + y), 0.006, grip, "none")
+        for s in BOTH:
+            t.add("beam", box((length, 0.004, 0.06), (0, middle + s * (half + 0.002), top - 0.02)), of="clamp")
+            for x in (-0.35 * length, 0.35 * length):
+                t.add("post", box((0.05, 0.05, top - 0.05), (x, middle + s * (half - 0.02), (top - 0.05) / 2)))
+        return t.model()
+
+    def _cleat(self, wide: float) -> tuple[list[Solid], tuple[float, float], float]:
+        """A cleat over cables that lie on z = 0, where its bolts go and what they clamp [m]."""
+        q, thick = self.radius, 0.003
+        if self.form == "trefoil":
+            ear, knee, rim = 2 * q + 0.02, np.pi / 6, q + thick / 2
+            right = arc_yz(rim, -0.25, knee, 4, q, q)
+            crown = arc_yz(rim, knee, np.pi - knee, 6, 0.0, q + np.sqrt(3) * q)
+            foot = np.array([[0, 2 * q + ear, thick / 2], [0, 2 * q + thick / 2 + 0.002, thick / 2]])
+            mirror = np.array([1, -1, 1])
+            path = np.vstack([foot, right[1:], crown, (right * mirror)[:0:-1], (foot * mirror)[::-1]])
+            return [strap(path, wide, thick)], (-2 * q - 0.6 * ear, 2 * q + 0.6 * ear), thick
+        if self.form == "blocks":
+            a, reach, seam = np.linspace(0, np.pi, 9), q + 0.014, 0.0005
+            hollow = np.column_stack([q * np.cos(a), q * np.sin(a)])[::-1][1:-1]
+            crest = outline(reach, 0.6 * q, 0.5 * reach, q + 0.006, -0.5 * reach, q + 0.006, -reach, 0.6 * q)
+            upper = [(-reach, seam), *hollow, (reach, seam), *crest]
+            lower = [(-reach, -seam), *(hollow * (1, -1)), (reach, -seam), (reach, -q - 0.004), (-reach, -q - 0.004)]
+            halves = [moved(slab_yz(half, -wide / 2, wide / 2), at(0, 0, q + 0.004)) for half in (upper, lower)]
+            return halves, (-reach + 0.006, reach - 0.006), 1.6 * q + 0.004
+        ends = np.array([[0, q + 0.02, thick / 2], [0, q + thick / 2, thick / 2]])
+        bow = arc_yz(q + thick / 2, 0, np.pi, 8, 0.0, q + 0.004)
+        return [strap(np.vstack([ends, bow, (ends * (1, -1, 1))[::-1]]), wide, thick)], (-q - 0.012, q + 0.012), thick
 
 
-def _girder(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class Girder(Fitting, name="clamp/girder", label="clamp", bundle="clamp"):
     """Two beams that cross, held by clamp jaws and bolts with a plate between them, nothing drilled or welded."""
-    h, b = float(rng.choice([0.12, 0.16, 0.2])), float(rng.choice([0.1, 0.14]))
-    web, f = 0.006, 0.01
-    d = float(rng.choice([0.012, 0.016]))
-    length, z = float(rng.uniform(0.8, 1.6)), float(rng.uniform(0.5, 1.2))
-    section = section_i(h, b, web, f)
-    plate_t = float(rng.choice([0.0, 0.01, 0.015]))
-    top = z + h + plate_t
-    parts = [framed(bar((-length / 2, 0, z + h / 2), (length / 2, 0, z + h / 2), section), "beam")]
-    parts.append(framed(bar((0, -length / 2, top + h / 2), (0, length / 2, top + h / 2), section), "beam"))
-    q = b / 2 + 0.7 * d
-    if plate_t:
-        parts.append(framed(box((2 * q + 3 * d, 2 * q + 3 * d, plate_t), (0, 0, z + h + plate_t / 2)), "plate"))
-    grip = 2 * f + plate_t
-    form = int(rng.integers(3))
-    for sx in (-1, 1):
-        for sy in (-1, 1):
-            low, high = z + h - f, top + f
-            tail = 1.4 * d
-            for level, way, turn in (
-                (high, 1.0, spun("z", np.pi if sx > 0 else 0.0)),
-                (low, -1.0, spun("z", -np.pi / 2 if sy > 0 else np.pi / 2)),
-            ):
-                # A jaw: its nose on the flange, its tail on the plate or the other flange.
-                if form == 0:
-                    jaw = upright(
-                        [
-                            [-tail, -f],
-                            [-0.6 * tail, -f],
-                            [-0.6 * tail, 0],
-                            [1.6 * d, 0],
-                            [1.6 * d, 0.5 * d],
-                            [0.3 * d, 1.0 * d],
-                            [-tail, 0.8 * d],
-                        ],
-                        -1.1 * d,
-                        1.1 * d,
-                    )
-                elif form == 1:
-                    jaw = merge(
-                        [
-                            box((3.0 * d, 2.4 * d, 0.5 * d), (0.1 * d, 0, 0.25 * d)),
-                            box((0.5 * d, 2.4 * d, f), (-tail + 0.25 * d, 0, -f / 2)),
-                        ]
-                    )
-                else:
-                    jaw = moved(extrude(rounded_rectangle(3.2 * d, 2.2 * d, 0.9 * d, 3), 0, 0.7 * d), at(0.1 * d))
-                mirror = np.diag([1.0, 1.0, way, 1.0])
-                parts.append(piece(moved(jaw, at(sx * q, sy * q, level) @ turn @ mirror), "clamp", "clamp"))
-            raise_ = {0: 0.8, 1: 0.5, 2: 0.7}[form] * d
-            parts += bolt_parts(d, grip + 2 * raise_, at(sx * q, sy * q, low - raise_), style, "clamp")
-    for s in (-1, 1):
-        x = s * (length / 2 - 0.08)
-        parts.append(framed(box((0.1, b, z), (x, 0, z / 2)), str(rng.choice(["post", "column", "foundation"]))))
-    return Model(parts)
+
+    high: float = among((0.12, 0.16, 0.2), "height of a beam", "m")
+    wide: float = among((0.1, 0.14), "width of a beam", "m")
+    size: float = among((0.012, 0.016), "diameter of the bolts", "m")
+    long: float = between(0.8, 1.6, "length of the beams", "m")
+    low: float = between(0.5, 1.2, "height of the lower beam's underside", "m")
+    plate: float = among((0.0, 0.01, 0.015), "thickness of a plate between the beams", "m")
+    form: str = among(("cast", "bent", "round"), "how the jaws are made")
+    posts: tuple[str, ...] = picks(("post", "column", "foundation"), 2, "what the posts are taken for")
+
+    def build(self, t: Table) -> Model:
+        h, b, f, d, length, z = self.high, self.wide, 0.01, self.size, self.long, self.low
+        section, half, plate = section_i(h, b, 0.006, f), length / 2, self.plate
+        top = z + h + plate
+        t.add("beam", bar((-half, 0, z + h / 2), (half, 0, z + h / 2), section))
+        t.add("beam", bar((0, -half, top + h / 2), (0, half, top + h / 2), section))
+        q = b / 2 + 0.7 * d
+        if plate:
+            t.add("plate", box((2 * q + 3 * d, 2 * q + 3 * d, plate), (0, 0, z + h + plate / 2)))
+        jaw, low, high = self._jaw(f), z + h - f, top + f
+        lift = {"cast": 0.8, "bent": 0.5, "round": 0.7}[self.form] * d
+        for x, y in CORNERS:
+            corner = t.at(x * q, y * q)
+            # Its nose on the flange, its tail on the plate or the other flange.
+            corner.at(0, 0, high).spun("z", np.pi if x > 0 else 0.0).add("clamp", jaw)
+            lower = corner.at(0, 0, low).spun("z", -np.pi / 2 if y > 0 else np.pi / 2)
+            lower.moved(np.diag([1.0, 1.0, -1.0, 1.0])).add("clamp", jaw)
+            add_bolt(corner.at(0, 0, low - lift), d, 2 * f + plate + 2 * lift)
+        for s, name in zip(BOTH, self.posts, strict=True):
+            t.add(name, box((0.1, b, z), (s * (half - 0.08), 0, z / 2)), of="steel")
+        return t.model()
+
+    def _jaw(self, f: float) -> Solid:
+        """A jaw on a flange of this thickness, its nose towards +x."""
+        d, tail = self.size, 1.4 * self.size
+        if self.form == "cast":
+            back = outline(-tail, -f, -0.6 * tail, -f, -0.6 * tail, 0, 1.6 * d, 0, 1.6 * d, 0.5 * d, 0.3 * d, d)
+            return upright([*back, (-tail, 0.8 * d)], -1.1 * d, 1.1 * d)
+        if self.form == "bent":
+            heel = box((0.5 * d, 2.4 * d, f), (-tail + 0.25 * d, 0, -f / 2))
+            return merge([box((3.0 * d, 2.4 * d, 0.5 * d), (0.1 * d, 0, 0.25 * d)), heel])
+        return moved(extrude(rounded_rectangle(3.2 * d, 2.2 * d, 0.9 * d, 3), 0, 0.7 * d), at(0.1 * d))
 
 
-COUPLES: tuple[Family, ...] = (
-    Family("clamp/hose", "end", GROUP, "clamp", _hose, SIZES[:9], "structure"),
-    floor_family("clamp/coupler", _coupler, "clamp"),
-    floor_family("clamp/cleat", _cleat, "clamp"),
-    floor_family("clamp/girder", _girder, "clamp"),
-)
+COUPLES = families_of(Hose, Coupler, Cleat, Girder)

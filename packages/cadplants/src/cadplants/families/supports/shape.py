@@ -2,65 +2,60 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import dataclasses
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from typing import Any, TypeVar
 
 import numpy as np
 
 from cadgraph.model.scene import Floats
-from cadplants.family import Build, Family, Part, placed
+from cadplants.builder.device import Device
+from cadplants.builder.params import (
+    Field,
+    Params,
+    Source,
+    When,
+    among,
+    between,
+    chance,
+    given,
+    nested,
+    several,
+    styled,
+    whole,
+)
+from cadplants.builder.table import Table
+from cadplants.families.chance import chance as happens
+from cadplants.families.chance import pick
 from cadplants.mesh_ops import Solid, about_x, extrude, merge, moved, sweep
 from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle, section_angle, section_channel, section_i
 from cadplants.primitives import bar, box, cylinder, dome, hexagon, ring, rope, torus
-from cadplants.standards import SIZES
-from cadplants.transforms import at, spun
+from cadplants.standards import PIPES
+from cadplants.transforms import spun
 
 __all__ = [
-    "FRAME",
-    "GROUP",
-    "arc_yz",
-    "below",
-    "bolt_parts",
-    "bow",
-    "carrier",
-    "coarse",
-    "eye",
-    "few",
-    "floor_family",
-    "footing",
-    "framed",
-    "member",
-    "nut_parts",
-    "overhead",
-    "piece",
-    "screwed",
-    "slab_yz",
-    "strap",
-    "upright",
-]
+    "BOTH", "CORNERS", "Below", "Carrier", "Feet", "Fitting", "Footing", "Overhead", "Section", "Standing",
+    "add_bolt", "add_nuts", "add_wall", "arc_yz", "bow", "chances", "each", "eye", "few", "foot_of", "hung", "picks",
+    "piece_of", "piecemeal", "radius", "screwed", "section_of", "shuffled", "slab_yz", "standing", "strap", "upright",
+]  # fmt: skip
 
-GROUP, FRAME = "Connection assembly", "Structural element"
+_GROUP = "Connection assembly"
+T = TypeVar("T")
+P = TypeVar("P", bound=Params)
 Point = Sequence[float]
+BOTH = (-1, 1)
+CORNERS = tuple((x, y) for x in BOTH for y in BOTH)
+_DOWN, _QUARTER = spun("x", np.pi), spun("x", np.pi / 2)
 
 
-def coarse(style: ModelingStyle) -> bool:
-    """Whether the style makes one mesh of a support: then feet keep no bolts and ribs of their own."""
-    return style.grain("structure") == "one"
+# --- shapes ---
 
 
 def few(radius: float, style: ModelingStyle, most: int = 12) -> int:
     """Sides of a thin round bar."""
     return int(np.clip(style.round(radius), 6, most))
-
-
-def piece(solid: Solid, name: str, bundle: str = "", color: str = "clamp", fine: bool = False) -> Part:
-    """A part of the connection itself."""
-    return Part(solid, name, color, bundle, "", fine)
-
-
-def framed(solid: Solid, name: str, color: str = "steel") -> Part:
-    """A part of the structure around it."""
-    return Part(solid, name, color, "", FRAME)
 
 
 def slab_yz(outline: Floats | Sequence[Point], low: float, high: float, holes: tuple[Floats, ...] = ()) -> Solid:
@@ -70,7 +65,7 @@ def slab_yz(outline: Floats | Sequence[Point], low: float, high: float, holes: t
 
 def upright(outline: Floats | Sequence[Point], low: float, high: float, holes: tuple[Floats, ...] = ()) -> Solid:
     """A plate along the line: its outline in (x, z), thick along y from ``low`` to ``high`` [m]."""
-    return moved(extrude(_wound(outline), -high, -low, holes), spun("x", np.pi / 2))
+    return moved(extrude(_wound(outline), -high, -low, holes), _QUARTER)
 
 
 def _wound(outline: Floats | Sequence[Point]) -> Floats:
@@ -92,229 +87,393 @@ def arc_yz(radius: float, first: float, last: float, steps: int, y: float = 0.0,
     return np.column_stack([np.zeros(steps + 1), y + radius * np.cos(a), z + radius * np.sin(a)])
 
 
-def bow(leg: float, foot: float, thick: float, style: ModelingStyle, other: float | None = None) -> Solid:
+def bow(leg: float, foot: float, thick: float, style: ModelingStyle) -> Solid:
     """A U of round bar over a line: half a circle of this radius and legs down to ``foot`` [m]."""
     steps = max(6, few(leg, style, 24) // 2)
-    path = [[0, leg, foot], *arc_yz(leg, 0, np.pi, steps), [0, -leg, foot if other is None else other]]
+    path = [[0, leg, foot], *arc_yz(leg, 0, np.pi, steps), [0, -leg, foot]]
     return rope(path, thick, few(thick, style))
-
-
-def nut_parts(
-    spots: Sequence[Point], d: float, style: ModelingStyle, bundle: str = "", washer: bool = True, twice: bool = False
-) -> list[Part]:
-    """Nuts that press down from each spot: washer, nut (ISO 4032 proportions), maybe a lock nut behind it [m]."""
-    parts = []
-    n = few(d, style)
-    flat = 0.16 * d if washer else 0.0
-    for spot in spots:
-        pose = at(*spot) @ spun("x", np.pi)
-        if washer:
-            flats = ring(0.55 * d, 1.05 * d, 0, flat, n)
-            parts.append(piece(moved(flats, pose), "washer", bundle, "fastener", True))
-        high = flat + 0.85 * d
-        parts.append(piece(moved(hexagon(1.6 * d, flat, high, d / 2, n), pose), "nut", bundle, "fastener", True))
-        if twice:
-            lock = hexagon(1.6 * d, high, high + 0.5 * d, d / 2, n)
-            parts.append(piece(moved(lock, pose), "nut", bundle, "fastener", True))
-    return parts
-
-
-def bolt_parts(
-    d: float,
-    grip: float,
-    pose: Floats,
-    style: ModelingStyle,
-    bundle: str = "",
-    head: str = "hex",
-    color: str = "fastener",
-) -> list[Part]:
-    """A bolt along z that clamps what lies between 0 and ``grip``; its head on top, its nut below [m].
-
-    Args:
-        d: diameter.
-        grip: clamped thickness.
-        pose: where z = 0 is its under side.
-        style: one mesh, or bolt, nut, washers where it models every piece.
-        bundle: of the parts.
-        head: ``hex`` (ISO 4014), ``stud``, ``socket`` (ISO 4762), ``carriage`` (ISO 8677), ``flange`` (EN 1665) or
-            ``none`` (no nut either: a hex head only, screwed in).
-        color: of the parts.
-    """
-    n, flat = few(d, style), 0.16 * d
-    shank = cylinder(d / 2, -1.35 * d if head != "none" else -0.2 * d, grip + 0.1 * d, n)
-    nut = hexagon(1.55 * d, -flat - 0.85 * d, -flat, d / 2, n)
-    tops = {
-        "hex": hexagon(1.55 * d, grip + flat, grip + flat + 0.65 * d),
-        "none": hexagon(1.55 * d, grip, grip + 0.65 * d),
-        "socket": cylinder(0.75 * d, grip, grip + d, n),
-        "carriage": dome(1.1 * d, 0.55 * d, grip, n),
-        "flange": merge([hexagon(1.5 * d, grip, grip + 0.8 * d), cylinder(1.1 * d, grip, grip + 0.2 * d, n)]),
-        "stud": cylinder(d / 2, grip, grip + 1.35 * d, n),
-    }
-    name = "stud" if head == "stud" else "screw" if head == "socket" else "bolt"
-    solids = [(name, merge([shank, tops[head]]))]
-    if head != "none":
-        solids += [("nut", nut), ("washer", ring(0.55 * d, d, -flat, 0, n))]
-    if head in ("hex", "stud"):
-        solids.append(("washer", ring(0.55 * d, d, grip, grip + flat, n)))
-    if head == "stud":
-        solids.append(("nut", hexagon(1.55 * d, grip + flat, grip + flat + 0.85 * d, d / 2, n)))
-    if style.fasteners != "pieces":
-        solids = [("bolt" if name == "stud" else name, merge([s for _, s in solids]))]
-    return [Part(moved(s, pose), label, color, bundle, "", True) for label, s in solids]
-
-
-def member(
-    size: float, style: ModelingStyle, rng: np.random.Generator, flat: bool = False
-) -> tuple[Floats, tuple[Floats, ...]]:
-    """The section of a bar this high (EN 10365, EN 10056, EN 10210 proportions), its top and bottom at +-size/2 [m]."""
-    kind = int(rng.integers(4 if flat else 7))
-    wall = 0.05 * size + 0.001
-    inner = (rounded_rectangle(size - 2 * wall, size - 2 * wall, wall, 2),) if style.hollow else ()
-    if kind == 0:
-        return section_i(size, size, 0.05 * size, 0.08 * size), ()
-    if kind == 1:
-        return section_i(size, 0.55 * size, 0.04 * size, 0.06 * size), ()
-    if kind == 2:
-        return section_channel(size, 0.5 * size, 0.07 * size, 0.09 * size) - (0.25 * size, 0), ()
-    if kind == 3:
-        return rounded_rectangle(size, size, float(rng.choice([0.0, 2 * wall])), 3), inner
-    if kind == 4:
-        return np.array([1.0, -1.0]) * section_angle(size, 0.1 * size)[::-1] - (0.3 * size, -size / 2), ()
-    n = style.round(size / 2)
-    if kind == 5:
-        # A corner on top, so that what lies on a coarse tube touches it.
-        bore = (circle(size / 2 - wall, n, phase=np.pi / 2),) if style.hollow else ()
-        return circle(size / 2, n, phase=np.pi / 2), bore
-    strut = [(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (0.5 - 0.18, 0.5), (0.5 - 0.18, 0.32), (0.5 - 0.06, 0.32)]
-    strut += [(0.44, -0.44), (-0.44, -0.44), (-0.44, 0.32), (-0.32, 0.32), (-0.32, 0.5), (-0.5, 0.5)]
-    return size * np.array(strut), ()
-
-
-def footing(side: float, shaft: float, style: ModelingStyle, rng: np.random.Generator) -> tuple[list[Part], float]:
-    """A base plate for a shaft of this width on z = 0, and its top [m]: square, round, slotted, stiffened, on grout."""
-    parts: list[Part] = []
-    thick = float(rng.choice([0.006, 0.01, 0.015, 0.02]))
-    low = 0.0
-    if rng.random() < 0.3:
-        low = float(rng.uniform(0.02, 0.08))
-        parts.append(framed(box((side + 0.06, side + 0.06, low), (0, 0, low / 2)), "foundation", "concrete"))
-    reach, hole = side / 2 - 0.02, float(rng.choice([0.006, 0.008, 0.01]))
-    round_ = bool(rng.random() < 0.25)
-    outline = (
-        circle(side / 2 * 1.1, max(12, style.round(side / 2)))
-        if round_
-        else rounded_rectangle(side, side, float(rng.choice([0.0, 0.01])), 3)
-    )
-    reach = 0.72 * reach if round_ else reach
-    spots = [(sx * reach, sy * reach) for sx in (-1, 1) for sy in (-1, 1)]
-    holes: tuple[Floats, ...] = ()
-    if style.holes:
-        slot = rounded_rectangle(2 * hole, 3.4 * hole, 0.99 * hole, 3)
-        oval = rng.random() < 0.3 and not round_
-        holes = tuple(slot + s if oval else circle(hole, 8, s) for s in spots)
-    parts.append(framed(extrude(outline, low, low + thick, holes), "base plate"))
-    top = low + thick
-    if coarse(style):
-        return parts, top
-    if rng.random() < 0.6:
-        screw = merge([cylinder(0.9 * hole, -0.0, top + 3.2 * hole, 8), hexagon(3.0 * hole, top, top + 1.6 * hole)])
-        parts += [Part(moved(screw, at(*s)), "bolt", "fastener", "", GROUP, True) for s in spots]
-    if rng.random() < 0.3 and side - shaft > 0.05:
-        leg = (side - shaft) / 2 - 0.003
-        rib = upright([[0, 0], [leg, 0], [leg, 0.01], [0.01, 1.3 * leg], [0, 1.3 * leg]], -0.004, 0.004)
-        for k in range(4):
-            pose = spun("z", k * np.pi / 2) @ at(shaft / 2, 0, top)
-            parts.append(Part(moved(rib, pose), "gusset plate", "steel", "", GROUP))
-    return parts, top
-
-
-def _leg(
-    x: float, y: float, low: float, high: float, size: float, style: ModelingStyle, rng: np.random.Generator
-) -> list[Part]:
-    """A post or column between two heights with its foot."""
-    foot, top = footing(size + float(rng.uniform(0.06, 0.14)), size, style, rng)
-    outline, holes = member(size, style, rng, flat=bool(rng.random() < 0.7))
-    shaft = moved(extrude(outline, low + top, high, holes), at(x, y))
-    name = "column" if len(outline) == 12 else "post"
-    return [framed(shaft, name), *placed(foot, at(x, y, low))]
-
-
-def _pair(y: float, low: float, high: float, size: float, style: ModelingStyle, rng: np.random.Generator) -> list[Part]:
-    """Two legs alike, left and right of the line."""
-    seed = int(rng.integers(1 << 30))
-    return [p for s in (-1, 1) for p in _leg(0, s * y, low, high, size, style, np.random.default_rng(seed))]
-
-
-def below(top: float, height: float, half: float, style: ModelingStyle, rng: np.random.Generator) -> list[Part]:
-    """What a support stands on, from the floor at ``-height`` up to a level face at ``top``.
-
-    A post with a head plate, a portal, a T, an arm off a column or a wall, a concrete block [m].
-    """
-    low, size = -height, float(rng.choice([0.05, 0.06, 0.08, 0.1, 0.12]))
-    free = top - low
-    kind = int(rng.integers(6))
-    if free < 0.3 or kind == 0:
-        wide, deep = 2 * half + float(rng.uniform(0.1, 0.3)), float(rng.uniform(0.15, 0.4))
-        return [framed(extrude(rounded_rectangle(deep, wide, 0.01, 1), low, top), "foundation", "concrete")]
-    if kind == 1:
-        thick = float(rng.choice([0.006, 0.01, 0.012]))
-        head = box((max(0.1, size + 0.04), 2 * half + 0.06, thick), (0, 0, top - thick / 2))
-        return [framed(head, "plate"), *_leg(0, 0, low, top - thick, size, style, rng)]
-    span = half + float(rng.uniform(0.12, 0.5))
-    outline, holes = member(size, style, rng)
-    arm = bar((0, -span, top - size / 2), (0, span, top - size / 2), outline, holes)
-    if kind == 2:
-        legs = _pair(span - size / 2, low, top - size, size, style, rng)
-        return [framed(arm, "beam"), *legs]
-    if kind == 3:
-        return [framed(arm, "beam"), *_leg(0, 0, low, top - size, size, style, rng)]
-    y = span + 0.06
-    if kind == 4:
-        column = extrude(section_i(0.12, 0.12, 0.006, 0.009), low, top + float(rng.uniform(0.1, 0.8)))
-        arm = bar((0, -half - 0.05, top - size / 2), (0, y - 0.06, top - size / 2), outline, holes)
-        return [framed(arm, "beam"), framed(moved(column, at(0, y)), "column")]
-    thick = float(rng.uniform(0.12, 0.25))
-    wall = box((float(rng.uniform(0.5, 1.2)), thick, free + 0.5), (0, y + thick / 2 + 0.01, (low + top + 0.5) / 2))
-    plate = box((size + 0.1, 0.01, size + 0.1), (0, y + 0.005, top - size / 2))
-    arm = bar((0, -half - 0.05, top - size / 2), (0, y, top - size / 2), outline, holes)
-    return [framed(arm, "beam"), framed(plate, "plate"), framed(wall, "wall", "concrete")]
-
-
-def overhead(low: float, height: float, half: float, style: ModelingStyle, rng: np.random.Generator) -> list[Part]:
-    """What a hanger hangs from: a beam with its under side at ``low``, along or across, alone or on legs [m]."""
-    size = float(rng.choice([0.08, 0.1, 0.14, 0.18]))
-    outline, holes = member(size, style, rng, flat=True)
-    span = half + float(rng.uniform(0.2, 0.6))
-    along_ = rng.random() < 0.3 and half < 0.04
-    a, b = ((-span, 0.0), (span, 0.0)) if along_ else ((0.0, -span), (0.0, span))
-    parts = [framed(bar((*a, low + size / 2), (*b, low + size / 2), outline, holes), "beam")]
-    kind = int(rng.integers(3)) if height < 3.0 else 0
-    if kind == 1 and not along_:
-        parts += _pair(span - size / 2, -height, low, size, style, rng)
-    elif kind == 2 and not along_:
-        column = extrude(section_i(0.14, 0.14, 0.007, 0.01), -height, low + size + 0.02)
-        parts.append(framed(moved(column, at(0, span + 0.07)), "column"))
-    return parts
 
 
 def eye(radius: float, thick: float, style: ModelingStyle) -> Solid:
     """A ring of round bar standing across y, about the origin [m]."""
-    return moved(torus(radius, thick, few(radius, style, 20), few(thick, style, 8)), spun("x", np.pi / 2))
+    return moved(torus(radius, thick, few(radius, style, 20), few(thick, style, 8)), _QUARTER)
 
 
-def carrier(name: str, build: object, sizes: tuple[int, ...] = SIZES, weight: float = 1.0) -> Family:
-    """A family that holds a line."""
-    return Family(name, "carrier", GROUP, name.split("/")[0], build, sizes, "structure", weight)  # type: ignore[arg-type]
+# --- fasteners ---
 
 
-def screwed(
-    d: float, grip: float, x: float, y: float, z: float, style: ModelingStyle, head: str = "none"
-) -> list[Part]:
+def add_nuts(t: Table, spots: Sequence[Point], d: float, washer: bool = True, twice: bool = False) -> None:
+    """Nuts that press down from each spot: washer, nut (ISO 4032 proportions), maybe a lock nut behind it [m]."""
+    n = few(d, t.style)
+    flat = 0.16 * d if washer else 0.0
+    high = flat + 0.85 * d
+    for spot in spots:
+        under = t.at(*spot).moved(_DOWN)
+        if washer:
+            under.add("washer", ring(0.55 * d, 1.05 * d, 0, flat, n))
+        under.add("nut", hexagon(1.6 * d, flat, high, d / 2, n))
+        if twice:
+            under.add("nut", hexagon(1.6 * d, high, high + 0.5 * d, d / 2, n))
+
+
+def add_bolt(t: Table, d: float, grip: float, head: str = "hex", own: Sequence[str] = ()) -> None:
+    """A bolt along z that clamps what lies between 0 and ``grip``; its head on top, its nut below [m].
+
+    Args:
+        t: with the frame; its style has one mesh, or bolt, nut, washers where it models every piece.
+        d: diameter.
+        grip: clamped thickness.
+        head: ``hex`` (ISO 4014), ``stud``, ``socket`` (ISO 4762), ``carriage`` (ISO 8677), ``flange`` (EN 1665) or
+            ``none`` (no nut either: a hex head only, screwed in).
+        own: names of the pieces that are there; all if empty.
+    """
+    n, flat = few(d, t.style), 0.16 * d
+    shank = cylinder(d / 2, -1.35 * d if head != "none" else -0.2 * d, grip + 0.1 * d, n)
+    if head == "hex":
+        top = hexagon(1.55 * d, grip + flat, grip + flat + 0.65 * d)
+    elif head == "none":
+        top = hexagon(1.55 * d, grip, grip + 0.65 * d)
+    elif head == "socket":
+        top = cylinder(0.75 * d, grip, grip + d, n)
+    elif head == "carriage":
+        top = dome(1.1 * d, 0.55 * d, grip, n)
+    elif head == "flange":
+        top = merge([hexagon(1.5 * d, grip, grip + 0.8 * d), cylinder(1.1 * d, grip, grip + 0.2 * d, n)])
+    else:
+        top = cylinder(d / 2, grip, grip + 1.35 * d, n)
+    name = {"stud": "stud", "socket": "screw"}.get(head, "bolt")
+    solids = [(name, merge([shank, top]))]
+    if head != "none":
+        solids.append(("nut", hexagon(1.55 * d, -flat - 0.85 * d, -flat, d / 2, n)))
+        solids.append(("washer", ring(0.55 * d, d, -flat, 0, n)))
+    if head in ("hex", "stud"):
+        solids.append(("washer", ring(0.55 * d, d, grip, grip + flat, n)))
+    if head == "stud":
+        solids.append(("nut", hexagon(1.55 * d, grip + flat, grip + flat + 0.85 * d, d / 2, n)))
+    if t.style.fasteners != "pieces":
+        solids = [("bolt" if name == "stud" else name, merge([s for _, s in solids]))]
+    for label, solid in solids:
+        if not own or label in own:
+            t.add(label, solid)
+
+
+def screwed(t: Table, d: float, grip: float, x: float, y: float, z: float, head: str = "none") -> None:
     """A bolt whose head shows towards -y, through a plate in front of ``y`` [m]."""
-    return bolt_parts(d, grip, at(x, y, z) @ spun("x", np.pi / 2), style, "", head)
+    add_bolt(t.at(x, y, z).moved(_QUARTER), d, grip, head)
 
 
-def floor_family(name: str, build: Build, whole: str, weight: float = 1.0) -> Family:
-    """A family of fittings that stand on the floor with what they hold together."""
-    return Family(name, "floor", GROUP, whole, build, (15,), "fitting", weight)
+def add_wall(t: Table, wide: float, thick: float, y: float, low: float, high: float) -> None:
+    """A wall whose face stands at ``y`` beside the line, between two heights [m]."""
+    t.add("wall", box((wide, thick, high - low), (0, y + thick / 2, (high + low) / 2)))
+
+
+# --- parameters ---
+
+
+def radius(p: Any) -> float:
+    """Radius of the line that a device with such a nominal size holds [m]."""
+    return PIPES[p.dn].radius
+
+
+def shuffled(items: Sequence[str], about: str) -> tuple[str, ...]:
+    """Some words in some order."""
+
+    def accept(value: Any, _: Any) -> tuple[str, ...]:
+        words = tuple(value.split(",")) if isinstance(value, str) else tuple(value)
+        if sorted(words) != sorted(items):
+            raise ValueError(f"give {', '.join(items)} in some order")
+        return words
+
+    limits = f"{', '.join(items)} in some order"
+    draw = lambda source, _: tuple(map(str, source.rng.permutation(list(items))))  # noqa: E731
+    return dataclasses.field(metadata={"spec": Field(about, "", limits, draw, accept)})  # type: ignore[no-any-return]
+
+
+def each(draw: Callable[[np.random.Generator, Any, int], T], count: Callable[[Any], int], about: str) -> tuple[T, ...]:
+    """A field: a piece for each of several things, given which one it is."""
+
+    def sample(source: Source, before: Any) -> tuple[T, ...]:
+        rng = source.rng
+        return tuple(draw(rng, before, k) for k in range(count(before)))
+
+    def accept(value: Any, before: Any) -> tuple[T, ...]:
+        if len(value) != count(before):
+            raise ValueError(f"give {count(before)} values")
+        return tuple(value)
+
+    return dataclasses.field(metadata={"spec": Field(about, "", "one each", sample, accept)})  # type: ignore[no-any-return]
+
+
+def picks(items: Sequence[T], count: int | Callable[[Any], int], about: str, when: When | None = None) -> tuple[T, ...]:
+    """A field: several of some things, one after the other."""
+    number = count if callable(count) else lambda _: count
+    return several(lambda rng, _: pick(rng, *items), number, about, when=when)
+
+
+def chances(share: float, count: int | Callable[[Any], int], about: str, when: When | None = None) -> tuple[bool, ...]:
+    """A field: whether something is so that is so this often, several times."""
+    number = count if callable(count) else lambda _: count
+    return several(lambda rng, _: happens(rng, share), number, about, when=when)
+
+
+def piece_of(kind: type[P], about: str, *said: str, when: When | None = None) -> P:
+    """A field: a piece that is told some of the fields before, by their names."""
+    return nested(lambda s, p: kind.draw(s, {name: getattr(p, name) for name in said}), about, when=when)
+
+
+class Feet(Params):
+    """Of what has feet on the floor: what the style says of those."""
+
+    holes: bool = styled(True, "whether plates are drilled")
+    structure: str | None = styled(None, "how fine structures are")
+
+
+class Carrier(Device, place="carrier", group=_GROUP, grain="structure"):
+    """What holds a line."""
+
+    height: float = given(1.1, "of the line's axis over the floor", "m")
+
+
+class Standing(Carrier, Feet):
+    """What holds a line and has feet, or may have."""
+
+
+class Fitting(Device, place="floor", group=_GROUP, sizes=(15,), grain="fitting"):
+    """Fittings that stand on the floor with what they hold together."""
+
+
+_FLAT = ("wide flange", "beam", "channel", "tube")
+
+
+class Section(Params):
+    """The section of a bar (EN 10365, EN 10056, EN 10210 proportions)."""
+
+    flat: bool = given(False, "level above and below")
+    form: str = among(lambda p: _FLAT if p.flat else (*_FLAT, "angle", "round", "strut"), "what section it is")
+    corner: float = among((0.0, 2.0), "radius of the corners / wall of the tube", when=lambda p: p.form == "tube")
+
+    def outline(self, size: float, style: ModelingStyle) -> tuple[Floats, tuple[Floats, ...]]:
+        """Its outline and holes, its top and bottom at +-size/2 [m]."""
+        wall, form = 0.05 * size + 0.001, self.form
+        if form == "wide flange":
+            return section_i(size, size, 0.05 * size, 0.08 * size), ()
+        if form == "beam":
+            return section_i(size, 0.55 * size, 0.04 * size, 0.06 * size), ()
+        if form == "channel":
+            return section_channel(size, 0.5 * size, 0.07 * size, 0.09 * size) - (0.25 * size, 0), ()
+        if form == "tube":
+            inner = (rounded_rectangle(size - 2 * wall, size - 2 * wall, wall, 2),) if style.hollow else ()
+            return rounded_rectangle(size, size, self.corner * wall, 3), inner
+        if form == "angle":
+            return np.array([1.0, -1.0]) * section_angle(size, 0.1 * size)[::-1] - (0.3 * size, -size / 2), ()
+        if form == "round":
+            # A corner on top, so that what lies on a coarse tube touches it.
+            n = style.round(size / 2)
+            bore = (circle(size / 2 - wall, n, phase=np.pi / 2),) if style.hollow else ()
+            return circle(size / 2, n, phase=np.pi / 2), bore
+        half = [(0.5, -0.5), (0.5, 0.5), (0.5 - 0.18, 0.5), (0.5 - 0.18, 0.32), (0.5 - 0.06, 0.32), (0.44, -0.44)]
+        strut = [(-0.5, -0.5), *half, *((-x, y) for x, y in half[:0:-1])]
+        return size * np.array(strut), ()
+
+
+def section_of(about: str, flat: bool = False, when: When | None = None) -> Section:
+    """A field: the section of a bar."""
+    return nested(lambda s, _: Section.draw(s, {"flat": flat}), about, when=when)
+
+
+def piecemeal(p: Any) -> bool:
+    """Whether the style makes more than one mesh of a support: then feet keep bolts and ribs of their own."""
+    return bool(p.structure != "one")
+
+
+class Footing(Feet):
+    """A base plate for a shaft: square, round, slotted, stiffened, on grout."""
+
+    thick: float = among((0.006, 0.01, 0.015, 0.02), "of the plate", "m")
+    raised: bool = chance(0.3, "on a plinth of concrete")
+    plinth: float = between(0.02, 0.08, "height of the plinth", "m", when=lambda p: p.raised)
+    hole: float = among((0.006, 0.008, 0.01), "radius of a hole", "m")
+    round: bool = chance(0.25, "the plate is round")
+    corner: float = among((0.0, 0.01), "radius of the plate's corners", "m", when=lambda p: not p.round)
+    slotted: bool = chance(0.3, "long holes in a square plate", when=lambda p: p.holes)
+    bolted: bool = chance(0.6, "bolts in the holes", when=piecemeal)
+    ribbed: bool = chance(0.3, "ribs from the plate to the shaft, where there is room", when=piecemeal)
+
+    @property
+    def top(self) -> float:
+        """Height of its top [m]."""
+        return self.plinth + self.thick
+
+    def build(self, t: Table, side: float, shaft: float) -> None:
+        """Puts it on z = 0.
+
+        Args:
+            t: with the frame.
+            side: width of the plate [m].
+            shaft: width of the shaft [m].
+        """
+        t, low, top, hole = replace(t, group="", bundle=""), self.plinth, self.top, self.hole
+        if self.raised:
+            t.add("foundation", box((side + 0.06, side + 0.06, low), (0, 0, low / 2)))
+        if self.round:
+            outline = circle(side / 2 * 1.1, t.n(side / 2, 12))
+        else:
+            outline = rounded_rectangle(side, side, self.corner, 3)
+        reach = (0.72 if self.round else 1.0) * (side / 2 - 0.02)
+        spots = [(x * reach, y * reach) for x, y in CORNERS]
+        holes: tuple[Floats, ...] = ()
+        if self.holes:
+            slot = rounded_rectangle(2 * hole, 3.4 * hole, 0.99 * hole, 3)
+            holes = tuple(slot + s if self.slotted and not self.round else circle(hole, 8, s) for s in spots)
+        t.add("base plate", extrude(outline, low, top, holes))
+        if self.bolted:
+            screw = merge([cylinder(0.9 * hole, 0.0, top + 3.2 * hole, 8), hexagon(3.0 * hole, top, top + 1.6 * hole)])
+            for spot in spots:
+                t.at(*spot).add("bolt", screw)
+        if self.ribbed and side - shaft > 0.05:
+            leg = (side - shaft) / 2 - 0.003
+            rib = upright([[0, 0], [leg, 0], [leg, 0.01], [0.01, 1.3 * leg], [0, 1.3 * leg]], -0.004, 0.004)
+            for k in range(4):
+                t.spun("z", k * np.pi / 2).at(shaft / 2, 0, top).add("gusset plate", rib)
+
+
+def _feet(p: Any) -> dict[str, Any]:
+    return {"holes": p.holes, "structure": p.structure}
+
+
+def foot_of(about: str = "foot", when: When | None = None) -> Footing:
+    """A field: the foot of something."""
+    return piece_of(Footing, about, "holes", "structure", when=when)
+
+
+class _Leg(Feet):
+    """A post or column with its foot."""
+
+    margin: float = between(0.06, 0.14, "width of the foot - of the shaft", "m")
+    foot: Footing = foot_of()
+    flat: bool = chance(0.7, "of a section that is level above")
+    section: Section = nested(lambda s, p: Section.draw(s, {"flat": p.flat}), "section of the shaft")
+
+    def build(self, t: Table, low: float, high: float, size: float) -> None:
+        """Puts it down about z, between two heights, for a shaft of this width [m]."""
+        outline, holes = self.section.outline(size, t.style)
+        t.add("column" if len(outline) == 12 else "post", extrude(outline, low + self.foot.top, high, holes))
+        self.foot.build(t.at(0, 0, low), size + self.margin, size)
+
+
+def _pair_of(source: Source, p: Any) -> _Leg:
+    """The parameters of two legs alike."""
+    return _Leg.draw(np.random.default_rng(int(source.rng.integers(1 << 30))), _feet(p))
+
+
+def _leg_of(source: Source, p: Any) -> _Leg:
+    return _pair_of(source, p) if p.form == "portal" else _Leg.draw(source, _feet(p))
+
+
+def _block(p: Any) -> bool:
+    return bool(p.free < 0.3 or p.form == "block")
+
+
+def _on(*forms: str) -> When:
+    return lambda p: p.form in forms and not _block(p)
+
+
+_BEAM = ("portal", "tee", "column", "wall")
+
+
+class Below(Feet):
+    """What a support stands on: a concrete block, a post with a plate, a portal, a T, an arm off column or wall."""
+
+    free: float = given(1.0, "height of the support over the floor", "m")
+    size: float = among((0.05, 0.06, 0.08, 0.1, 0.12), "height of a section", "m")
+    form: str = among(("block", "post", *_BEAM), "what it is; a block where it is low")
+    wide: float = between(0.1, 0.3, "width of the block - of the support", "m", when=_block)
+    deep: float = between(0.15, 0.4, "depth of the block", "m", when=_block)
+    head: float = among((0.006, 0.01, 0.012), "thickness of the post's head plate", "m", when=_on("post"))
+    over: float = between(0.12, 0.5, "how far its beam reaches past the support", "m", when=_on(*_BEAM))
+    section: Section = section_of("section of its beam", when=_on(*_BEAM))
+    leg: _Leg = nested(_leg_of, "its post, or each", when=_on("post", "portal", "tee"))
+    rise: float = between(0.1, 0.8, "of the column over the support", "m", when=_on("column"))
+    thick: float = between(0.12, 0.25, "of the wall", "m", when=_on("wall"))
+    long: float = between(0.5, 1.2, "of the wall", "m", when=_on("wall"))
+
+    def build(self, t: Table, top: float, half: float) -> None:
+        """Puts it down.
+
+        Args:
+            t: with the frame.
+            top: height of the level face on it [m].
+            half: half the support's width across the line [m].
+        """
+        size, low = self.size, top - self.free
+        if _block(self):
+            block = extrude(rounded_rectangle(self.deep, 2 * half + self.wide, 0.01, 1), low, top)
+            t.add("foundation", block)
+            return
+        if self.form == "post":
+            t.add("plate", box((max(0.1, size + 0.04), 2 * half + 0.06, self.head), (0, 0, top - self.head / 2)))
+            self.leg.build(t, low, top - self.head, size)
+            return
+        span, z, y = half + self.over, top - size / 2, half + self.over + 0.06
+        outline, holes = self.section.outline(size, t.style)
+        ends = {"column": (-half - 0.05, y - 0.06), "wall": (-half - 0.05, y)}.get(self.form, (-span, span))
+        t.add("beam", bar((0, ends[0], z), (0, ends[1], z), outline, holes))
+        if self.form == "portal":
+            for s in BOTH:
+                self.leg.build(t.at(0, s * (span - size / 2)), low, top - size, size)
+        elif self.form == "tee":
+            self.leg.build(t, low, top - size, size)
+        elif self.form == "column":
+            t.at(0, y).add("column", extrude(section_i(0.12, 0.12, 0.006, 0.009), low, top + self.rise))
+        else:
+            t.add("plate", box((size + 0.1, 0.01, size + 0.1), (0, y + 0.005, z)))
+            place = (0, y + self.thick / 2 + 0.01, (low + top + 0.5) / 2)
+            t.add("wall", box((self.long, self.thick, self.free + 0.5), place))
+
+
+def standing(depth: Callable[[Any], float], when: When | None = None) -> Below:
+    """A field: what a carrier stands on, whose underside is this far below the line's axis [m]."""
+    return nested(lambda s, p: Below.draw(s, {"free": p.height - depth(p), **_feet(p)}), "what it stands on", when=when)
+
+
+def _beside(p: Any) -> bool:
+    """Whether a beam runs along the line, which leaves no place for legs."""
+    return bool(p.along and p.half < 0.04)
+
+
+class Overhead(Feet):
+    """What a hanger hangs from: a beam along or across, alone or on legs or on a column."""
+
+    height: float = given(1.1, "of the line's axis over the floor", "m")
+    half: float = given(0.0, "half the hanger's width across the line", "m")
+    size: float = among((0.08, 0.1, 0.14, 0.18), "height of the beam", "m")
+    section: Section = section_of("section of the beam", flat=True)
+    over: float = between(0.2, 0.6, "how far the beam reaches past the hanger", "m")
+    along: bool = chance(0.3, "along the line, where the hanger is slender")
+    held: int = whole(0, 2, "hangs free, on two legs, on a column", when=lambda p: p.height < 3.0)
+    leg: _Leg = nested(_pair_of, "each of its legs", when=lambda p: p.held == 1 and not _beside(p))
+
+    def build(self, t: Table, low: float) -> None:
+        """Puts it down, its underside at ``low`` [m]."""
+        size, span, floor = self.size, self.half + self.over, -self.height
+        x, y = (span, 0.0) if _beside(self) else (0.0, span)
+        outline, holes = self.section.outline(size, t.style)
+        t.add("beam", bar((-x, -y, low + size / 2), (x, y, low + size / 2), outline, holes))
+        if _beside(self):
+            return
+        if self.held == 1:
+            for s in BOTH:
+                self.leg.build(t.at(0, s * (span - size / 2)), floor, low, size)
+        elif self.held == 2:
+            column = extrude(section_i(0.14, 0.14, 0.007, 0.01), floor, low + size + 0.02)
+            t.at(0, span + 0.07).add("column", column)
+
+
+def hung(half: float | Callable[[Any], float] = 0.0, when: When | None = None) -> Overhead:
+    """A field: what a hanger hangs from that is half this wide across the line [m]."""
+    wide = half if callable(half) else lambda _: half
+    return nested(
+        lambda s, p: Overhead.draw(s, {"height": p.height, "half": wide(p), **_feet(p)}),
+        "what it hangs from",
+        when=when,
+    )

@@ -1,37 +1,49 @@
-"""What carries a line from below or from the side: stanchions, chairs, shoes, knees, arms, sheets, tripods, springs."""
+"""What carries a line from below or from the side: stanchions, chairs, shoes, dummy legs, knees, ribbed brackets."""
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
+from cadplants.builder.device import families_of
+from cadplants.builder.params import Params, among, between, chance, nested
+from cadplants.builder.table import Table, outline
 from cadplants.families.supports.hanger import roller
 from cadplants.families.supports.shape import (
+    BOTH,
+    CORNERS,
+    Below,
+    Footing,
+    Section,
+    Standing,
+    add_bolt,
+    add_nuts,
+    add_wall,
     arc_yz,
-    below,
-    bolt_parts,
-    carrier,
-    coarse,
+    chances,
     few,
-    footing,
-    framed,
-    member,
-    nut_parts,
-    piece,
+    foot_of,
+    piecemeal,
+    radius,
+    section_of,
     slab_yz,
+    standing,
     strap,
     upright,
 )
-from cadplants.family import Family, Model, Part, placed
-from cadplants.mesh_ops import Solid, extrude, merge, moved
+from cadplants.family import Model
+from cadplants.mesh_ops import Solid, extrude
 from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import section_i
-from cadplants.primitives import along, bar, box, cylinder, hexagon, ring, rope, turned
-from cadplants.standards import PIPES, SIZES
-from cadplants.transforms import at, spun
+from cadplants.primitives import bar, box, cylinder, hexagon, ring, rope, turned
+from cadplants.standards import SIZES
+from cadplants.transforms import spun
 
-__all__ = ["STANDS", "tie"]
+__all__ = ["STANDS", "Bracket", "Tie"]
 
 _B = "bracket"
+_QUARTER = spun("x", np.pi / 2)
 
 
 def _cradle(r: float, thick: float, length: float, half_angle: float, style: ModelingStyle) -> Solid:
@@ -42,292 +54,310 @@ def _cradle(r: float, thick: float, length: float, half_angle: float, style: Mod
     return slab_yz(np.vstack([(r + thick) * unit, (r * unit)[::-1]]), -length / 2, length / 2)
 
 
-def tie(dn: int, grip: float, style: ModelingStyle, rng: np.random.Generator) -> list[Part]:
-    """What ties a line down on a level plate of this thickness under it: a U-bolt, a strap, nothing [m]."""
-    r = PIPES[dn].radius
-    kind = int(rng.integers(4))
-    if kind == 0:
-        return []
-    if kind < 3:
-        d = 0.006 if r < 0.02 else 0.01 if r < 0.06 else 0.016
-        leg = r + d / 2
-        path = np.vstack([[[0, leg, -r - grip - 2.2 * d]], arc_yz(leg, 0, np.pi, 10), [[0, -leg, -r - grip - 2.2 * d]]])
-        spots = [(0, s * leg, -r - grip) for s in (-1, 1)]
-        return [piece(rope(path, d / 2, few(d / 2, style)), "u-bolt"), *nut_parts(spots, d, style)]
-    t, ear = 0.003 + 0.01 * r, 0.03
-    middle, floor = r + t / 2, -r + t / 2
-    sides = [[0, middle + ear, floor], [0, middle, floor]]
-    path = np.vstack([sides, arc_yz(middle, 0, np.pi, 10), [[0, -y, z] for _, y, z in sides[::-1]]])
-    parts = [piece(strap(path, 0.03 + 0.1 * r, t), "clamp")]
-    for s in (-1, 1):
-        parts += bolt_parts(0.008, t, at(0, s * (middle + 0.6 * ear), -r), style, "", "none")
-    return parts
+class Tie(Params):
+    """What ties a line down on a level plate under it: a U-bolt, a strap, nothing."""
+
+    form: str = among(("none", "u-bolt", "u-bolt", "strap"), "what ties the line down")
+
+    def build(self, t: Table, grip: float) -> None:
+        """Puts it down, through a plate of this thickness [m]."""
+        r, t = t.pipe.radius, t.bundled("")
+        if self.form == "u-bolt":
+            d = 0.006 if r < 0.02 else 0.01 if r < 0.06 else 0.016
+            _add_bow(t, d, -r - grip - 2.2 * d)
+            add_nuts(t, [(0, s * (r + d / 2), -r - grip) for s in BOTH], d)
+        elif self.form == "strap":
+            thick, ear = 0.003 + 0.01 * r, 0.03
+            middle, floor = r + thick / 2, -r + thick / 2
+            ends = np.array([[0, middle + ear, floor], [0, middle, floor]])
+            path = np.vstack([ends, arc_yz(middle, 0, np.pi, 10), (ends * (1, -1, 1))[::-1]])
+            t.add("clamp", strap(path, 0.03 + 0.1 * r, thick))
+            for s in BOTH:
+                add_bolt(t.at(0, s * (middle + 0.6 * ear), -r), 0.008, thick, "none")
 
 
-def _stanchion(dn: int, style: ModelingStyle, rng: np.random.Generator, height: float) -> Model:
+def _add_bow(t: Table, d: float, foot: float) -> None:
+    """A U-bolt over the line with legs down to ``foot`` [m]."""
+    leg = t.pipe.radius + d / 2
+    path = np.vstack([[[0, leg, foot]], arc_yz(leg, 0, np.pi, 10), [[0, -leg, foot]]])
+    t.add("u-bolt", rope(path, d / 2, few(d / 2, t.style)))
+
+
+class Bracket(Standing, bundle=_B, label=_B):
+    """What carries a line."""
+
+
+class Stanchion(Bracket, name="bracket/stanchion"):
     """An adjustable pipe saddle (MSS SP-58 types 36 to 38): cradle, screw with nut, reducer, stanchion."""
-    r = PIPES[dn].radius
-    n, thick, length = style.round(r), 0.005 + 0.02 * r, 0.05 + 0.9 * r * float(rng.uniform(0.5, 1.2))
-    low = -height
-    free = height - r - thick
-    stud, shaft = 0.010 + 0.1 * r, 0.022 + 0.2 * r
-    parts = [piece(_cradle(r, thick, length, float(rng.uniform(0.25, 0.5)) * np.pi, style), _B, _B)]
-    socket = turned(
-        [(1.1 * stud, -r - thick - 2.2 * stud), (1.9 * stud, -r - thick - 2.2 * stud), (2.0 * stud, -r - 0.4 * thick)],
-        few(stud, style),
-    )
-    parts.append(piece(socket, _B, _B))
-    if rng.random() < 0.5:
-        d = 0.008 if r < 0.06 else 0.012
-        leg = r + d / 2
-        ends = -0.55 * r
-        path = np.vstack([[[0, leg, ends - 2 * d]], arc_yz(leg, 0, np.pi, 10), [[0, -leg, ends - 2 * d]]])
-        parts.append(piece(rope(path, d / 2, few(d / 2, style)), "u-bolt", _B))
-        lugs = [box((2.6 * d, 2.8 * d, 0.006), (0, s * (leg + 0.1 * d), ends - 0.003)) for s in (-1, 1)]
-        parts.append(piece(merge(lugs), _B, _B))
-        parts += nut_parts([(0, s * leg, ends - 0.006) for s in (-1, 1)], d, style, _B, False)
-    foot, top = footing(3.2 * shaft + 0.08, 2 * shaft, style, rng)
-    head = low + top + max(0.05, free * float(rng.uniform(0.4, 0.75)))
-    neck = min(head + float(rng.uniform(0.02, 0.06)), -r - thick - 2.2 * stud)
-    parts.append(piece(cylinder(stud, head - 0.03, -r - thick - 1.5 * stud, few(stud, style)), "stud", _B, "fastener"))
-    parts.append(piece(hexagon(3.3 * stud, neck, neck + 1.2 * stud), "nut", _B, "fastener"))
-    tube = ring(0.85 * shaft if style.hollow else 0.0, shaft, low + top, head, n)
-    collar = turned(
-        [
-            (1.0 * shaft, head - 0.3 * shaft),
-            (1.25 * shaft, head - 0.3 * shaft),
-            (1.25 * shaft, head),
-            (1.5 * stud, neck),
-        ],
-        n,
-    )
-    parts += [framed(tube, "post"), piece(collar, _B, _B), *placed(foot, at(0, 0, low))]
-    return Model(parts)
+
+    long: float = between(0.5, 1.2, "length of the cradle / the usual one")
+    open: float = between(0.25, 0.5, "how far the cradle goes round on either side / half a turn")
+    bolted: bool = chance(0.5, "a U-bolt over the line")
+    foot: Footing = foot_of()
+    share: float = between(0.4, 0.75, "height of the stanchion / of the line's underside")
+    neck: float = between(0.02, 0.06, "height of the reducer", "m")
+
+    def build(self, t: Table) -> Model:
+        r, n, low = t.pipe.radius, t.n(t.pipe.radius), -self.height
+        thick, length, stud, shaft = 0.005 + 0.02 * r, 0.05 + 0.9 * r * self.long, 0.010 + 0.1 * r, 0.022 + 0.2 * r
+        t.add(_B, _cradle(r, thick, length, self.open * np.pi, t.style), of="clamp")
+        under = -r - thick - 2.2 * stud
+        socket = outline(1.1 * stud, under, 1.9 * stud, under, 2.0 * stud, -r - 0.4 * thick)
+        t.add(_B, turned(socket, few(stud, t.style)), of="clamp")
+        if self.bolted:
+            d, ends = 0.008 if r < 0.06 else 0.012, -0.55 * r
+            leg = r + d / 2
+            _add_bow(t, d, ends - 2 * d)
+            lugs = [box((2.6 * d, 2.8 * d, 0.006), (0, s * (leg + 0.1 * d), ends - 0.003)) for s in BOTH]
+            t.add(_B, *lugs, of="clamp")
+            add_nuts(t, [(0, s * leg, ends - 0.006) for s in BOTH], d, False)
+        top = low + self.foot.top
+        head = top + max(0.05, (self.height - r - thick) * self.share)
+        neck = min(head + self.neck, under)
+        t.add("stud", cylinder(stud, head - 0.03, -r - thick - 1.5 * stud, few(stud, t.style)), fine=False)
+        t.add("nut", hexagon(3.3 * stud, neck, neck + 1.2 * stud), fine=False)
+        t.add("post", ring(0.85 * shaft if t.style.hollow else 0.0, shaft, top, head, n))
+        rim, wide = head - 0.3 * shaft, 1.25 * shaft
+        t.add(_B, turned(outline(shaft, rim, wide, rim, wide, head, 1.5 * stud, neck), n), of="clamp")
+        self.foot.build(t.at(0, 0, low), 3.2 * shaft + 0.08, 2 * shaft)
+        return t.model()
 
 
-def _chair(dn: int, style: ModelingStyle, rng: np.random.Generator, height: float) -> Model:
+class RollerChair(Bracket, name="bracket/roller chair", sizes=SIZES[4:]):
     """A roller chair (MSS SP-58 types 44 to 46): cheeks with an axle and one roll or two, on a plate or on studs."""
-    r = PIPES[dn].radius
-    waist, half = 0.014 + 0.2 * r, 0.75 * r + 0.006
-    two = bool(rng.random() < 0.35)
-    wide, cheek = 1.5 * waist + 0.02, 0.006 + 0.02 * r
-    parts: list[Part] = []
-    if two:  # two plain rolls at 45 degrees to the upright
-        q = (r + waist) * np.sqrt(0.5)
-        z, length = -q, 2.5 * waist
-        for s in (-1, 1):
-            roll = along("x", cylinder(waist, -length / 2, length / 2, style.round(waist)), 0, s * q, z)
-            pin = along(
-                "x", cylinder(0.3 * waist, -length / 2 - cheek - 0.006, length / 2 + cheek + 0.006, 8), 0, s * q, z
-            )
-            parts += [piece(roll, _B, _B, "trim"), piece(pin, "bolt", _B, "fastener", True)]
-        floor = z - 1.5 * waist
-        outline = [
-            [-q - 1.1 * waist, floor],
-            [q + 1.1 * waist, floor],
-            [q + 1.0 * waist, z + 0.4 * waist],
-            [q - waist, z + 0.4 * waist],
-        ]
-        outline += [[-q + waist, z + 0.4 * waist], [-q - 1.0 * waist, z + 0.4 * waist]]
-        outline = [*outline[:4], [0, max(-r - 0.6 * waist, floor) - 0.2 * waist], *outline[4:]]
-        parts += [piece(slab_yz(outline, x, x + cheek), _B, _B, "steel") for x in (-length / 2 - cheek, length / 2)]
-        side, deep = 2 * (q + 1.1 * waist), length + 2 * cheek
-    else:
-        z = -r - waist
-        parts.append(piece(moved(roller(half, r, waist, style), at(0, 0, z)), _B, _B, "trim"))
-        out = half + 0.003
-        pin = along("y", cylinder(0.35 * waist, -out - cheek - 0.008, out + cheek + 0.008, 8), 0, 0, z)
-        parts.append(piece(pin, "bolt", _B, "fastener", True))
-        floor = z - 1.3 * waist - 0.25 * r
-        ear = [[-wide, floor], [wide, floor], [0.5 * wide, z + 0.5 * wide], [-0.5 * wide, z + 0.5 * wide]]
-        parts += [piece(upright(ear, y, y + cheek), _B, _B, "steel") for y in (-out - cheek, out)]
-        side, deep = 2 * (out + cheek), 2 * wide
-    t = 0.008
-    parts.append(piece(box((deep + 0.02, side + 0.08, t), (0, 0, floor - t / 2)), _B, _B, "steel"))
-    gap = float(rng.choice([0.0, 0.03, 0.06]))
-    spots = [(sx * 0.35 * deep, sy * (side / 2 + 0.02)) for sx in (-1, 1) for sy in (-1, 1)]
-    low = floor - t - gap
-    for x, y in spots:
-        if gap:
-            parts.append(piece(moved(cylinder(0.006, low - 0.01, floor + 0.015, 8), at(x, y)), "stud", _B, "fastener"))
-            parts += nut_parts([(x, y, floor - t)], 0.012, style, _B, False)
-            parts += placed(nut_parts([(-x, y, -floor)], 0.012, style, _B, False), spun("y", np.pi))
-        else:
-            parts += bolt_parts(0.01, t, at(x, y, floor - t), style, _B, "none")
-    if gap:
-        parts.append(framed(box((deep + 0.04, side + 0.1, 0.01), (0, 0, low - 0.005)), "base plate"))
-        low -= 0.01
-    return Model([*parts, *below(low, height, side / 2 + 0.05, style, rng)])
+
+    two: bool = chance(0.35, "two plain rolls, not an hourglass")
+    gap: float = among((0.0, 0.03, 0.06), "under its plate, on studs", "m")
+    below: Below = standing(lambda p: RollerChair.depth(p) + 0.008 + p.gap + (0.01 if p.gap else 0.0))
+
+    @staticmethod
+    def depth(p: Any) -> float:
+        """From the line's axis to the foot of the cheeks [m]."""
+        r = radius(p)
+        waist = 0.014 + 0.2 * r
+        depth = (r + waist) * np.sqrt(0.5) + 1.5 * waist if p.two else r + 2.3 * waist + 0.25 * r
+        return float(depth)
+
+    def build(self, t: Table) -> Model:
+        r, floor, thick = t.pipe.radius, -self.depth(self), 0.008
+        side, deep = self._rolls(t, r, floor) if self.two else self._roll(t, r, floor)
+        t.add(_B, box((deep + 0.02, side + 0.08, thick), (0, 0, floor - thick / 2)))
+        low = floor - thick - self.gap
+        for x, y in [(sx * 0.35 * deep, sy * (side / 2 + 0.02)) for sx, sy in CORNERS]:
+            if self.gap:
+                t.at(x, y).add("stud", cylinder(0.006, low - 0.01, floor + 0.015, 8), fine=False)
+                add_nuts(t, [(x, y, floor - thick)], 0.012, False)
+                add_nuts(t.spun("y", np.pi), [(-x, y, -floor)], 0.012, False)
+            else:
+                add_bolt(t.at(x, y, floor - thick), 0.01, thick, "none")
+        if self.gap:
+            t.add("base plate", box((deep + 0.04, side + 0.1, 0.01), (0, 0, low - 0.005)))
+            low -= 0.01
+        self.below.build(t, low, side / 2 + 0.05)
+        return t.model()
+
+    def _rolls(self, t: Table, r: float, floor: float) -> tuple[float, float]:
+        """Two plain rolls at 45 degrees to the upright; how wide and how long they are with their cheeks [m]."""
+        waist, cheek = 0.014 + 0.2 * r, 0.006 + 0.02 * r
+        q = float((r + waist) * np.sqrt(0.5))
+        half, out = 1.25 * waist, 1.1 * waist
+        for s in BOTH:
+            lying = t.at(0, s * q, -q).along("x")
+            lying.add(_B, cylinder(waist, -half, half, t.n(waist)), of="trim")
+            lying.add("bolt", cylinder(0.3 * waist, -half - cheek - 0.006, half + cheek + 0.006, 8))
+        top = -q + 0.4 * waist
+        right = outline(q + out, floor, q + waist, top, q - waist, top)
+        dip = (0, max(-r - 0.6 * waist, floor) - 0.2 * waist)
+        side = [(-q - out, floor), *right, dip, (-q + waist, top), (-q - waist, top)]
+        for x in (-half - cheek, half):
+            t.add(_B, slab_yz(side, x, x + cheek))
+        return 2 * (q + out), 2 * (half + cheek)
+
+    def _roll(self, t: Table, r: float, floor: float) -> tuple[float, float]:
+        """An hourglass on an axle; how wide and how long it is with its cheeks [m]."""
+        waist, half, cheek = 0.014 + 0.2 * r, 0.75 * r + 0.006, 0.006 + 0.02 * r
+        wide, z, out = 1.5 * waist + 0.02, -r - waist, half + 0.003
+        axle = t.at(0, 0, z)
+        axle.add(_B, roller(half, r, waist, t.style), of="trim")
+        axle.along("y").add("bolt", cylinder(0.35 * waist, -out - cheek - 0.008, out + cheek + 0.008, 8))
+        ear = outline(-wide, floor, wide, floor, 0.5 * wide, z + 0.5 * wide, -0.5 * wide, z + 0.5 * wide)
+        for y in (-out - cheek, out):
+            t.add(_B, upright(ear, y, y + cheek))
+        return 2 * (out + cheek), 2 * wide
 
 
-def _guided(dn: int, style: ModelingStyle, rng: np.random.Generator, height: float) -> Model:
+class GuidedShoe(Bracket, name="bracket/guided shoe"):
     """A shoe of a split beam, a box or an H on a slide plate between guide angles with hold-down lips (EN 13480-3)."""
-    r = PIPES[dn].radius
-    tall, length, half = 0.06 + 0.35 * r, 0.15 + 0.7 * r, 0.035 + 0.55 * r
-    top = -r - tall
-    t = 0.008
-    kind = int(rng.integers(3))
-    if kind == 0:  # a T out of half a beam
-        shoe = merge(
-            [
-                box((length, t, tall + 0.004), (0, 0, top + tall / 2 + 0.002)),
-                box((length, 2 * half, t), (0, 0, top + t / 2)),
-            ]
-        )
-    elif kind == 1:  # two webs
-        z = -0.8 * r
-        webs = [box((length, t, z - top), (0, s * 0.62 * r, (z + top) / 2)) for s in (-1, 1)]
-        shoe = merge([*webs, box((length, 2 * half, t), (0, 0, top + t / 2))])
-    else:  # an H with a bent pad
-        pad = _cradle(r, 0.006, length + 0.03, 0.3 * np.pi, style)
-        section = section_i(tall - 0.005, 2 * half, 0.006, t)
-        web = bar((-length / 2, 0, top + (tall - 0.005) / 2), (length / 2, 0, top + (tall - 0.005) / 2), section)
-        shoe = merge([web, pad])
-    parts = [piece(shoe, _B, _B, "steel")]
-    if kind < 2 and rng.random() < 0.5:
-        for x in (-0.4 * length, 0.4 * length):
-            for s in (-1, 1) if kind == 0 else ():
-                corners = [[s * t / 2, top + t], [s * 0.9 * half, top + t], [s * t / 2, -r - 0.002]]
-                parts.append(piece(slab_yz(corners, x - 0.004, x + 0.004), "gusset plate", _B, "steel"))
-    slide = float(rng.choice([0.0, 0.003, 0.006]))
-    if slide:
-        pads = [box((0.7 * length, 2.2 * half, slide), (0, 0, top - slide / 2))]
-        parts.append(framed(merge(pads), "plate", "rubber"))
-    base, thick = top - slide, 0.012
-    side = 2 * half + 0.2
-    parts.append(framed(box((0.8 * length, side, thick), (0, 0, base - thick / 2)), "plate"))
-    lip = bool(rng.random() < 0.6)
-    reach = 0.6 * length * float(rng.uniform(0.3, 1.0))
-    for s in (-1, 1):
-        y = s * (half + 0.003)
-        upright_ = box((reach, 0.008, slide + t + 0.012), (0, y + s * 0.004, base + (slide + t + 0.012) / 2))
-        solids = [upright_, box((reach, 0.05, 0.008), (0, y + s * 0.03, base + 0.004))]
-        if lip:
-            solids.append(box((reach, 0.03, 0.008), (0, y - s * 0.007, base + slide + t + 0.008)))
-        parts.append(piece(merge(solids), _B, "guide", "steel"))
-        if rng.random() < 0.5:
-            parts += bolt_parts(0.01, 0.008 + thick, at(0, y + s * 0.035, base - thick), style, "guide")
-    parts = [p if p.bundle != "guide" else Part(p.solid, p.name, p.color, _B, "", p.fine) for p in parts]
-    return Model([*parts, *below(base - thick, height, side / 2, style, rng)])
+
+    form: str = among(("tee", "box", "H"), "how the shoe is made")
+    ribbed: bool = chance(0.5, "gussets on a tee", when=lambda p: p.form != "H")
+    slide: float = among((0.0, 0.003, 0.006), "thickness of the slide plate", "m")
+    lips: bool = chance(0.6, "the guides hold it down")
+    reach: float = between(0.3, 1.0, "length of the guides / 0.6 of the shoe")
+    bolted: tuple[bool, ...] = chances(0.5, 2, "whether the guide is bolted on, on either side")
+    below: Below = standing(lambda p: 1.35 * radius(p) + 0.06 + p.slide + 0.012)
+
+    def build(self, t: Table) -> Model:
+        r, thick, plate = t.pipe.radius, 0.008, 0.012
+        tall, length, half = 0.06 + 0.35 * r, 0.15 + 0.7 * r, 0.035 + 0.55 * r
+        top, base, side = -r - tall, -r - tall - self.slide, 2 * half + 0.2
+        t.add(_B, *self._shoe(t, r, top, length, half))
+        for x in (-0.4 * length, 0.4 * length) if self.ribbed and self.form == "tee" else ():
+            for s in BOTH:
+                rib = outline(s * thick / 2, top + thick, s * 0.9 * half, top + thick, s * thick / 2, -r - 0.002)
+                t.add("gusset plate", slab_yz(rib, x - 0.004, x + 0.004))
+        if self.slide:
+            t.add("plate", box((0.7 * length, 2.2 * half, self.slide), (0, 0, top - self.slide / 2)), of="rubber")
+        t.add("plate", box((0.8 * length, side, plate), (0, 0, base - plate / 2)))
+        reach, high = 0.6 * length * self.reach, self.slide + thick + 0.012
+        for s, bolted in zip(BOTH, self.bolted, strict=True):
+            y = s * (half + 0.003)
+            guide = [box((reach, 0.008, high), (0, y + s * 0.004, base + high / 2))]
+            guide.append(box((reach, 0.05, 0.008), (0, y + s * 0.03, base + 0.004)))
+            if self.lips:
+                guide.append(box((reach, 0.03, 0.008), (0, y - s * 0.007, base + self.slide + thick + 0.008)))
+            t.add(_B, *guide)
+            if bolted:
+                add_bolt(t.at(0, y + s * 0.035, base - plate), 0.01, 0.008 + plate)
+        self.below.build(t, base - plate, side / 2)
+        return t.model()
+
+    def _shoe(self, t: Table, r: float, top: float, length: float, half: float) -> list[Solid]:
+        thick, tall = 0.008, -r - top
+        sole = box((length, 2 * half, thick), (0, 0, top + thick / 2))
+        if self.form == "tee":  # out of half a beam
+            return [box((length, thick, tall + 0.004), (0, 0, top + tall / 2 + 0.002)), sole]
+        if self.form == "box":  # two webs
+            z = -0.8 * r
+            return [*(box((length, thick, z - top), (0, s * 0.62 * r, (z + top) / 2)) for s in BOTH), sole]
+        z = top + (tall - 0.005) / 2  # with a bent pad
+        web = bar((-length / 2, 0, z), (length / 2, 0, z), section_i(tall - 0.005, 2 * half, 0.006, thick))
+        return [web, _cradle(r, 0.006, length + 0.03, 0.3 * np.pi, t.style)]
 
 
-def _trunnion(dn: int, style: ModelingStyle, rng: np.random.Generator, height: float) -> Model:
+class DummyLeg(Bracket, name="bracket/dummy leg", sizes=SIZES[3:]):
     """A dummy leg: a stub of pipe or profile welded under the line, with a pad or ribs."""
-    r = PIPES[dn].radius
-    leg = r * float(rng.uniform(0.55, 0.85))
-    n = style.round(leg)
-    foot, top = footing(2 * leg + 0.1, 2 * leg, style, rng)
-    low = -height + top
-    up = -np.sqrt(r * r - leg * leg) * 0.98 - 0.002
-    if rng.random() < 0.7:
-        stub = ring(0.88 * leg if style.hollow else 0.0, leg, low, up, n)
-    else:
-        stub = extrude(section_i(1.5 * leg, 1.5 * leg, 0.1 * leg, 0.14 * leg), low, -r + 0.004)
-    parts = [framed(stub, str(rng.choice(["post", "post", "column"]))), *placed(foot, at(0, 0, -height))]
-    if coarse(style) or rng.random() < 0.5:
-        parts.append(
-            piece(_cradle(r, 0.005, 2.4 * leg + 0.03, 0.33 * np.pi, style), str(rng.choice([_B, "clamp"])), "", "steel")
-        )
-    if rng.random() < 0.4:
-        t = 0.008
-        ribs = upright([[leg * 0.98, low], [leg + 0.04, low], [leg * 0.98, low + 0.09]], -t / 2, t / 2)
-        parts += [piece(moved(ribs, spun("z", k * np.pi / 2)), "gusset plate", "", "steel") for k in range(4)]
-    return Model(parts)
+
+    wide: float = between(0.55, 0.85, "radius of the leg / of the line")
+    foot: Footing = foot_of()
+    round: bool = chance(0.7, "the leg is a pipe")
+    taken: str = among(("post", "post", "column"), "what the leg is taken for")
+    padded: bool = chance(0.5, "a pad between the line and the leg", when=piecemeal, otherwise=True)
+    pad: str = among((_B, "clamp"), "what the pad is taken for", when=lambda p: p.padded)
+    ribbed: bool = chance(0.4, "ribs on the foot")
+
+    def build(self, t: Table) -> Model:
+        r, low = t.pipe.radius, -self.height + self.foot.top
+        leg = r * self.wide
+        if self.round:
+            up = -np.sqrt(r * r - leg * leg) * 0.98 - 0.002
+            stub = ring(0.88 * leg if t.style.hollow else 0.0, leg, low, up, t.n(leg))
+        else:
+            stub = extrude(section_i(1.5 * leg, 1.5 * leg, 0.1 * leg, 0.14 * leg), low, -r + 0.004)
+        t.add(self.taken, stub)
+        self.foot.build(t.at(0, 0, -self.height), 2 * leg + 0.1, 2 * leg)
+        if self.padded:
+            t.add(self.pad, _cradle(r, 0.005, 2.4 * leg + 0.03, 0.33 * np.pi, t.style), of="steel", own=False)
+        if self.ribbed:
+            rib = upright(outline(leg * 0.98, low, leg + 0.04, low, leg * 0.98, low + 0.09), -0.004, 0.004)
+            for k in range(4):
+                t.spun("z", k * np.pi / 2).add("gusset plate", rib, own=False)
+        return t.model()
 
 
-def _knee(dn: int, style: ModelingStyle, rng: np.random.Generator, height: float) -> Model:
+class Knee(Bracket, name="bracket/knee"):
     """A cantilever off a column with a knee brace or a web, end plates bolted on the flange."""
-    r = PIPES[dn].radius
-    size, depth = float(rng.choice([0.06, 0.08, 0.1])), 0.14
-    reach = r + float(rng.uniform(0.12, 0.4))
-    t = 0.01
-    outline, holes = member(size, style, rng, flat=True)
-    z = -r - size / 2
-    arm = bar((0, -r - 0.06, z), (0, reach, z), outline, holes)
-    parts: list[Part] = [piece(arm, _B, _B, "steel") if coarse(style) or rng.random() < 0.6 else framed(arm, "beam")]
-    tall = max(0.08, min(float(rng.uniform(0.15, 0.35)) + r, height - r - size - 0.06))
-    low = -r - size - tall
-    wide = 0.13
-    if rng.random() < 0.35:  # a web plate instead of a brace, straight, clipped or curved
-        deep = min(0.9 * (reach + r), tall * 1.2)
-        a = np.linspace(0, np.pi / 2, 7)
-        shapes = (
-            [[reach - deep, -r - size], [reach, low], [reach, -r - size]],
-            [
-                [reach - deep, -r - size],
-                [reach - deep, -r - size - 0.02],
-                [reach - 0.02, low],
-                [reach, low],
-                [reach, -r - size],
-            ],
-            [*([reach - deep * np.sin(q), low + tall * (1 - np.cos(q))] for q in a), [reach, -r - size]],
-        )
-        web = slab_yz(shapes[int(rng.integers(3))], -0.005, 0.005)
-        parts.append(piece(web, "gusset plate", _B, "steel"))
-    else:
-        thin, gap = member(0.7 * size, style, rng)
-        start, end = (0.0, reach + t, low + 0.35 * size), (0.0, -0.2 * r, -r - size - 0.2 * size)
-        parts.append(framed(bar(start, end, thin, gap), "brace"))
-    plates = [(-r + 0.03, -r - size - 0.03)] if rng.random() < 0.5 else [(-r + 0.03, low - 0.04)]
-    for high, bottom in plates:
-        parts.append(framed(box((wide, t, high - bottom), (0, reach + t / 2, (high + bottom) / 2)), "plate"))
+
+    size: float = among((0.06, 0.08, 0.1), "height of the arm", "m")
+    reach: float = between(0.12, 0.4, "from the line's side to the column", "m")
+    section: Section = section_of("section of the arm", flat=True)
+    bracket: bool = chance(0.6, "the arm is taken for a bracket, not a beam", when=piecemeal, otherwise=True)
+    tall: float = between(0.15, 0.35, "height of the brace or web, where there is room, - radius of the line", "m")
+    webbed: bool = chance(0.35, "a web, not a brace")
+    cut: str = among(("straight", "clipped", "curved"), "edge of the web", when=lambda p: p.webbed)
+    brace: Section = section_of("section of the brace", when=lambda p: not p.webbed)
+    short: bool = chance(0.5, "the end plate is at the arm only")
+    rise: float = between(0.1, 0.6, "height of the column over the line's axis", "m")
+    tie: Tie = nested(Tie, "tie")
+
+    def build(self, t: Table) -> Model:
+        r, size, thick, wide, depth = t.pipe.radius, self.size, 0.01, 0.13, 0.14
+        reach, under = r + self.reach, -r - size
+        section, z = self.section.outline(size, t.style), -r - size / 2
+        t.add(_B if self.bracket else "beam", bar((0, -r - 0.06, z), (0, reach, z), *section))
+        tall = max(0.08, min(self.tall + r, self.height - r - size - 0.06))
+        low = under - tall
+        if self.webbed:
+            deep = min(0.9 * (reach + r), tall * 1.2)
+            tip, toe, a = (reach - deep, under), (reach, low), np.linspace(0, np.pi / 2, 7)
+            edge = {
+                "straight": [tip, toe],
+                "clipped": [tip, (reach - deep, under - 0.02), (reach - 0.02, low), toe],
+                "curved": [(reach - deep * np.sin(q), low + tall * (1 - np.cos(q))) for q in a],
+            }[self.cut]
+            t.add("gusset plate", slab_yz([*edge, (reach, under)], -0.005, 0.005))
+        else:
+            start, end = (0.0, reach + thick, low + 0.35 * size), (0.0, -0.2 * r, under - 0.2 * size)
+            t.add("brace", bar(start, end, *self.brace.outline(0.7 * size, t.style)))
+        high, bottom = -r + 0.03, (under - 0.03 if self.short else low - 0.04)
+        t.add("plate", box((wide, thick, high - bottom), (0, reach + thick / 2, (high + bottom) / 2)))
         for x in (-0.45, 0.45):
             for q in (high - 0.018, bottom + 0.018):
-                parts += bolt_parts(
-                    0.012, t + 0.01, at(x * (wide - 0.03), reach + t + 0.01, q) @ spun("x", np.pi / 2), style, _B
-                )
-    column = extrude(section_i(depth, 0.15, 0.007, 0.01), -height, float(rng.uniform(0.1, 0.6)))
-    parts.append(framed(moved(column, at(0, reach + t + depth / 2)), "column"))
-    return Model([*parts, *tie(dn, 0.008, style, rng)])
+                add_bolt(t.at(x * (wide - 0.03), reach + thick + 0.01, q).moved(_QUARTER), 0.012, thick + 0.01)
+        column = extrude(section_i(depth, 0.15, 0.007, 0.01), -self.height, self.rise)
+        t.at(0, reach + thick + depth / 2).add("column", column)
+        self.tie.build(t, 0.008)
+        return t.model()
 
 
-def _ribbed(dn: int, style: ModelingStyle, rng: np.random.Generator, height: float) -> Model:
+class Ribbed(Bracket, name="bracket/ribbed"):
     """An L of plate or casting with one or two triangular ribs, bolted on a wall or a column beside the line."""
-    r = PIPES[dn].radius
-    t, wide = float(rng.choice([0.006, 0.008, 0.012])), 0.05 + 0.4 * r + float(rng.uniform(0, 0.05))
-    reach, out = r + float(rng.uniform(0.02, 0.15)), 1.15 * r + 0.015
-    top, tall = -r, 0.1 + 1.2 * r
-    low = top - tall
-    high = top if rng.random() < 0.6 else top + float(rng.uniform(0.02, 0.06))
-    shelf = box((wide, reach + out, t), (0, (reach - out) / 2, top - t / 2))
-    back = box((wide, t, high - low), (0, reach - t / 2, (high + low) / 2))
-    span = reach - t + 0.85 * out
-    corner, tip, toe = [reach - t, top - t], [reach - t - span, top - t], [reach - t, low + 0.1 * tall]
-    form = int(rng.integers(3))
-    outline = [corner, tip, toe] if form == 0 else [corner, tip, [tip[0], tip[1] - 0.01], [toe[0] - 0.01, toe[1]], toe]
-    if form == 2:
-        outline = [
-            corner,
-            tip,
-            *([corner[0] - span * (1 - s), corner[1] - (corner[1] - toe[1]) * s**2] for s in (0.25, 0.5, 0.75)),
-            toe,
-        ]
-    xs = (0.0,) if wide < 0.09 or rng.random() < 0.4 else (-0.4 * wide, 0.4 * wide)
-    ribs = [slab_yz(outline, x - t / 2, x + t / 2) for x in xs]
-    cast = rng.random() < 0.5
-    if cast:
-        parts = [piece(merge([shelf, back, *ribs]), _B, _B, "steel")]
-    else:
-        parts = [piece(merge([shelf, back]), _B, _B, "steel"), *(piece(s, "gusset plate", _B, "steel") for s in ribs)]
-    d = 0.01
-    for s in (-1, 1):
-        for z in (top - t - 0.03, low + 0.025):
-            x = s * 0.3 * wide if len(xs) == 1 else s * 0.22 * wide
-            parts += bolt_parts(d, t, at(x, reach, z) @ spun("x", np.pi / 2), style, _B, "none")
-    if rng.random() < 0.5:
-        wall = box((0.8, 0.2, height + 0.6), (0, reach + 0.1, (0.6 - height) / 2))
-        parts.append(framed(wall, "wall", "concrete"))
-    else:
-        column = extrude(section_i(0.14, max(0.14, wide), 0.007, 0.01), -height, 0.4)
-        parts.append(framed(moved(column, at(0, reach + 0.07)), "column"))
-    return Model([*parts, *tie(dn, t, style, rng)])
+
+    thick: float = among((0.006, 0.008, 0.012), "of the plates", "m")
+    wide: float = between(0, 0.05, "width over the usual one", "m")
+    reach: float = between(0.02, 0.15, "from the line's side to the wall or column", "m")
+    level: bool = chance(0.6, "its back ends at the shelf")
+    over: float = between(0.02, 0.06, "height of the back over the shelf", "m", when=lambda p: not p.level)
+    cut: str = among(("straight", "clipped", "curved"), "edge of a rib")
+    one: bool = chance(0.4, "one rib", when=lambda p: Ribbed.width(p) >= 0.09, otherwise=True)
+    cast: bool = chance(0.5, "cast in one piece")
+    wall: bool = chance(0.5, "on a wall, not a column")
+    tie: Tie = nested(Tie, "tie")
+
+    @staticmethod
+    def width(p: Any) -> float:
+        """Of the shelf [m]."""
+        return 0.05 + 0.4 * radius(p) + p.wide  # type: ignore[no-any-return]
+
+    def build(self, t: Table) -> Model:
+        r, thick, wide = t.pipe.radius, self.thick, self.width(self)
+        reach, out, top, tall = r + self.reach, 1.15 * r + 0.015, -r, 0.1 + 1.2 * r
+        low, high = top - tall, top + self.over
+        solids = [box((wide, reach + out, thick), (0, (reach - out) / 2, top - thick / 2))]
+        solids.append(box((wide, thick, high - low), (0, reach - thick / 2, (high + low) / 2)))
+        span, x0, z0, z1 = reach - thick + 0.85 * out, reach - thick, top - thick, low + 0.1 * tall
+        edge = {
+            "straight": [],
+            "clipped": [(x0 - span, z0 - 0.01), (x0 - 0.01, z1)],
+            "curved": [(x0 - span * (1 - s), z0 - (z0 - z1) * s**2) for s in (0.25, 0.5, 0.75)],
+        }[self.cut]
+        side = [(x0, z0), (x0 - span, z0), *edge, (x0, z1)]
+        xs = (0.0,) if self.one else (-0.4 * wide, 0.4 * wide)
+        ribs = [slab_yz(side, x - thick / 2, x + thick / 2) for x in xs]
+        t.add(_B, *solids, *(ribs if self.cast else ()))
+        for rib in () if self.cast else ribs:
+            t.add("gusset plate", rib)
+        for s in BOTH:
+            for z in (top - thick - 0.03, low + 0.025):
+                spot = t.at(s * (0.3 if self.one else 0.22) * wide, reach, z)
+                add_bolt(spot.moved(_QUARTER), 0.01, thick, "none")
+        if self.wall:
+            add_wall(t, 0.8, 0.2, reach, -self.height, 0.6)
+        else:
+            column = extrude(section_i(0.14, max(0.14, wide), 0.007, 0.01), -self.height, 0.4)
+            t.at(0, reach + 0.07).add("column", column)
+        self.tie.build(t, thick)
+        return t.model()
 
 
-STANDS: tuple[Family, ...] = (
-    carrier("bracket/stanchion", _stanchion),
-    carrier("bracket/roller chair", _chair, SIZES[4:]),
-    carrier("bracket/guided shoe", _guided),
-    carrier("bracket/dummy leg", _trunnion, SIZES[3:]),
-    carrier("bracket/knee", _knee),
-    carrier("bracket/ribbed", _ribbed),
-)
+STANDS = families_of(Stanchion, RollerChair, GuidedShoe, DummyLeg, Knee, Ribbed)
