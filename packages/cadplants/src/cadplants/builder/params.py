@@ -32,6 +32,7 @@ __all__ = [
     "among",
     "between",
     "chance",
+    "each",
     "given",
     "nested",
     "several",
@@ -291,18 +292,42 @@ def several(
         rng = source.rng
         return tuple(draw(rng, before) for _ in range(count(before)))
 
-    def accept(value: Any, before: Any) -> tuple[T, ...]:
+    return _field(Field(about, unit, "one each", sample, _as_many(count), when, ()))  # type: ignore[no-any-return]
+
+
+def each(
+    draw: Callable[[Rng, Any, tuple[T, ...]], T],
+    count: Callable[[Any], int],
+    about: str,
+    unit: str = "",
+    *,
+    when: When | None = None,
+) -> tuple[T, ...]:
+    """As ``several``, but what is drawn may follow from those before: how many they are, what they were."""
+
+    def sample(source: Source, before: Any) -> tuple[T, ...]:
+        rng = source.rng
+        found: tuple[T, ...] = ()
+        for _ in range(count(before)):
+            found = (*found, draw(rng, before, found))
+        return found
+
+    return _field(Field(about, unit, "one each", sample, _as_many(count), when, ()))  # type: ignore[no-any-return]
+
+
+def _as_many(count: Callable[[Any], int]) -> Callable[[Any, Any], tuple[Any, ...]]:
+    def accept(value: Any, before: Any) -> tuple[Any, ...]:
         if not isinstance(value, (list, tuple)) or len(value) != count(before):
             raise ValueError(f"give {count(before)} values")
         return tuple(value)
 
-    return _field(Field(about, unit, "one each", sample, accept, when, ()))  # type: ignore[no-any-return]
+    return accept
 
 
 @dataclass_transform(
     kw_only_default=True,
     frozen_default=True,
-    field_specifiers=(between, whole, chance, among, weighted, given, nested, several, spread, styled),
+    field_specifiers=(between, whole, chance, among, weighted, given, nested, several, each, spread, styled),
 )
 class Params:
     """The parameters of a device or a piece of one; every subclass is a frozen dataclass of its fields.

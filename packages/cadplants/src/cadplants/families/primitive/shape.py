@@ -8,7 +8,6 @@ import numpy as np
 
 from cadgraph.model.scene import Floats
 from cadplants.builder.params import Params, among, chance, given
-from cadplants.family import Build, Family, Part
 from cadplants.mesh_ops import Solid, about_x, merge, moved, revolve, tube, weld
 from cadplants.modeling_style import ModelingStyle
 from cadplants.primitives import cylinder, ring, torus, turned
@@ -21,9 +20,7 @@ __all__ = [
     "cone",
     "disc",
     "dish",
-    "family",
     "lying",
-    "part",
     "pipe_piece",
     "sized",
     "sleeve",
@@ -33,25 +30,6 @@ __all__ = [
 ]
 
 FRAME = "Structural element"
-
-
-def part(name: str, *solids: Solid, color: str = "valve", bundle: str = "", group: str = "") -> Part:
-    """Solids as one part."""
-    return Part(merge(list(solids)), name, color, bundle, group)
-
-
-def family(
-    name: str,
-    place: str,
-    group: str,
-    build: Build,
-    whole: str = "",
-    sizes: tuple[int, ...] = SIZES,
-    weight: float = 1.0,
-    grain: str = "",
-) -> Family:
-    """A family, its device in one mesh called as its kind by default."""
-    return Family(name, place, group, whole or name.split("/")[0], build, sizes, grain, weight)
 
 
 def sized(low: int, high: int) -> tuple[int, ...]:
