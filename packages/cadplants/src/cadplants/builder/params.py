@@ -29,6 +29,7 @@ __all__ = [
     "OneStream",
     "Params",
     "Source",
+    "When",
     "among",
     "between",
     "chance",

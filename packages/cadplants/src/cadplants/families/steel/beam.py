@@ -6,6 +6,7 @@ import numpy as np
 
 from cadgraph.model.scene import Floats
 from cadplants.builder.device import families_of
+from cadplants.builder.draws import number, yes
 from cadplants.builder.params import among, between, chance, nested, whole
 from cadplants.builder.table import Table
 from cadplants.families.steel.shape import (
@@ -21,13 +22,11 @@ from cadplants.families.steel.shape import (
     each,
     few_sides,
     mirrored,
-    number,
     section,
     slab_xz,
     slab_yz,
     span_of,
     spread,
-    yes,
 )
 from cadplants.family import Model
 from cadplants.polygon import circle, rounded_rectangle

@@ -8,6 +8,7 @@ import numpy as np
 
 from cadgraph.model.scene import Floats
 from cadplants.builder.device import families_of
+from cadplants.builder.draws import made, number, of_form, one_of, yes
 from cadplants.builder.params import Params, among, between, chance, given, nested, whole
 from cadplants.builder.table import Table
 from cadplants.families.steel.caster import Casters
@@ -24,10 +25,6 @@ from cadplants.families.steel.shape import (
     few_sides,
     flat,
     lug,
-    made,
-    number,
-    of_form,
-    one_of,
     pipe,
     ribbon,
     section,
@@ -35,7 +32,6 @@ from cadplants.families.steel.shape import (
     slab_xz,
     span_of,
     spread,
-    yes,
 )
 from cadplants.family import Model
 from cadplants.mesh_ops import Solid, moved

@@ -9,6 +9,7 @@ import numpy as np
 
 from cadgraph.model.scene import Floats
 from cadplants.builder.device import families_of
+from cadplants.builder.draws import yes
 from cadplants.builder.params import Params, Source, among, between, chance, given, nested, several, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.steel.shape import (
@@ -26,7 +27,6 @@ from cadplants.families.steel.shape import (
     slab_xz,
     span_of,
     spread,
-    yes,
 )
 from cadplants.family import Model
 from cadplants.mesh_ops import Solid, merge, moved

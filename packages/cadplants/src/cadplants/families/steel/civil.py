@@ -8,6 +8,7 @@ import numpy as np
 
 from cadgraph.model.scene import Floats
 from cadplants.builder.device import families_of
+from cadplants.builder.draws import of_form, one_of, yes
 from cadplants.builder.params import among, between, chance, nested, whole
 from cadplants.builder.table import Table
 from cadplants.families.steel.shape import (
@@ -19,15 +20,12 @@ from cadplants.families.steel.shape import (
     bolts,
     each,
     few_sides,
-    of_form,
-    one_of,
     rect,
     ribbon,
     section,
     slab_xy,
     slab_xz,
     spread,
-    yes,
 )
 from cadplants.family import Model
 from cadplants.mesh_ops import Solid, extrude, loft, merge, moved, weld

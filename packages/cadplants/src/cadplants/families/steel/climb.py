@@ -6,6 +6,7 @@ import numpy as np
 
 from cadgraph.model.scene import Floats
 from cadplants.builder.device import families_of
+from cadplants.builder.draws import of_form, one_of
 from cadplants.builder.params import Params, among, between, chance, given, nested, whole
 from cadplants.builder.table import Table
 from cadplants.families.steel.caster import Casters
@@ -17,8 +18,6 @@ from cadplants.families.steel.shape import (
     each,
     few_sides,
     filleted,
-    of_form,
-    one_of,
     pipe,
     section,
     span_of,

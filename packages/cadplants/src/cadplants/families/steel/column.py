@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from cadplants.builder.device import families_of
+from cadplants.builder.draws import of_form
 from cadplants.builder.params import Params, among, between, chance, nested
 from cadplants.builder.table import Table
 from cadplants.families.steel.shape import (
@@ -16,7 +17,6 @@ from cadplants.families.steel.shape import (
     bar,
     few_sides,
     flat,
-    of_form,
     pipe,
     section,
     slab_xy,

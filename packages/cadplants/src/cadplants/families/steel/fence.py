@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from cadplants.builder.device import families_of
+from cadplants.builder.draws import made, number, one_of, yes
 from cadplants.builder.params import Params, among, between, chance, given, nested, whole
 from cadplants.builder.table import Table
 from cadplants.families.steel.caster import wheel
@@ -20,16 +21,12 @@ from cadplants.families.steel.shape import (
     bolts,
     each,
     few_sides,
-    made,
-    number,
-    one_of,
     pipe,
     ribbon,
     section,
     slab_xy,
     slab_xz,
     spread,
-    yes,
 )
 from cadplants.family import Model
 from cadplants.mesh_ops import Solid, extrude, merge, moved

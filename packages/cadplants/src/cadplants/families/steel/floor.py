@@ -8,6 +8,7 @@ import numpy as np
 
 from cadgraph.model.scene import Floats
 from cadplants.builder.device import families_of
+from cadplants.builder.draws import number, yes
 from cadplants.builder.params import among, between, chance, nested, whole
 from cadplants.builder.table import Table
 from cadplants.families.steel.caster import Casters
@@ -21,7 +22,6 @@ from cadplants.families.steel.shape import (
     each,
     few_sides,
     grid,
-    number,
     pipe,
     rect,
     ribbon,
@@ -31,7 +31,6 @@ from cadplants.families.steel.shape import (
     slab_yz,
     span_of,
     spread,
-    yes,
 )
 from cadplants.family import Model
 from cadplants.mesh_ops import Solid, extrude, merge, moved

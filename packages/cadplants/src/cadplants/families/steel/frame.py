@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from cadplants.builder.device import families_of
+from cadplants.builder.draws import made, number, of_form, yes
 from cadplants.builder.params import Params, among, between, chance, nested, whole
 from cadplants.builder.table import Table
 from cadplants.families.steel.shape import (
@@ -14,12 +15,8 @@ from cadplants.families.steel.shape import (
     Structure,
     each,
     grid,
-    made,
-    number,
-    of_form,
     rect,
     spread,
-    yes,
 )
 from cadplants.family import Model
 from cadplants.mesh_ops import Solid, extrude, merge, moved, sweep

@@ -6,6 +6,7 @@ import numpy as np
 
 from cadgraph.model.scene import Floats
 from cadplants.builder.device import families_of
+from cadplants.builder.draws import of_form, one_of
 from cadplants.builder.params import among, between, chance, whole
 from cadplants.builder.table import Table
 from cadplants.families.steel.shape import (
@@ -13,8 +14,6 @@ from cadplants.families.steel.shape import (
     Structure,
     each,
     few_sides,
-    of_form,
-    one_of,
     rect,
     slab_xy,
     slab_xz,

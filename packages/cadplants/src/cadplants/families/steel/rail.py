@@ -6,6 +6,7 @@ import numpy as np
 
 from cadgraph.model.scene import Floats
 from cadplants.builder.device import families_of
+from cadplants.builder.draws import made, of_form, one_of
 from cadplants.builder.params import Params, among, between, chance, nested, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.steel.shape import (
@@ -17,9 +18,6 @@ from cadplants.families.steel.shape import (
     bolts,
     each,
     few_sides,
-    made,
-    of_form,
-    one_of,
     pipe,
     ribbon,
     section,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any, TypeVar
 
 import numpy as np
@@ -10,9 +10,9 @@ import numpy.typing as npt
 
 from cadgraph.model.scene import Floats
 from cadplants.builder.device import Device
+from cadplants.builder.draws import made, of_form, one_of
 from cadplants.builder.params import Params, among, between, chance, several
 from cadplants.builder.table import Table
-from cadplants.families.chance import pick
 from cadplants.mesh_ops import Solid, extrude, lattice, merge, moved, tube
 from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle
@@ -36,11 +36,7 @@ __all__ = [
     "flat",
     "grid",
     "lug",
-    "made",
     "mirrored",
-    "number",
-    "of_form",
-    "one_of",
     "pipe",
     "rect",
     "ribbon",
@@ -50,7 +46,6 @@ __all__ = [
     "slab_yz",
     "span_of",
     "spread",
-    "yes",
 ]
 
 GROUP = "Structural element"
@@ -69,31 +64,6 @@ class Structure(Device, place="floor", group=GROUP, sizes=(15,), grain="structur
 
     def __init_subclass__(cls, **said: Any) -> None:
         super().__init_subclass__(**{"label": said.get("name", "").split("/")[0], **said})
-
-
-def yes(share: float) -> Callable[[Rng, Any], bool]:
-    """Draws whether one of several things is so, that is so this often."""
-    return lambda rng, _: bool(rng.random() < share)
-
-
-def number(low: float, high: float) -> Callable[[Rng, Any], float]:
-    """Draws a number of one of several things."""
-    return lambda rng, _: float(rng.uniform(low, high))
-
-
-def one_of(*items: T) -> Callable[[Rng, Any], T]:
-    """Draws which of some things one of several is."""
-    return lambda rng, _: pick(rng, *items)
-
-
-def made(piece: type[P], fixed: Callable[[Any], Mapping[str, Any]] = lambda _: {}) -> Callable[[Rng, Any], P]:
-    """Draws one of several pieces, with what the fields before set of it."""
-    return lambda rng, p: piece.draw(rng, fixed(p))
-
-
-def of_form(*forms: str) -> Callable[[Any], bool]:
-    """Tells whether something is of one of these forms."""
-    return lambda p: p.form in forms
 
 
 def each(

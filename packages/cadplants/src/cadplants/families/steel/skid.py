@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from cadplants.builder.device import families_of
+from cadplants.builder.draws import number, of_form
 from cadplants.builder.params import Params, Source, among, between, chance, given, nested, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.steel.shape import (
@@ -20,8 +21,6 @@ from cadplants.families.steel.shape import (
     few_sides,
     grid,
     lug,
-    number,
-    of_form,
     pipe,
     rect,
     ribbon,

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from cadplants.builder.device import families_of
+from cadplants.builder.draws import one_of, yes
 from cadplants.builder.params import among, between, chance, nested, whole
 from cadplants.builder.table import Table
 from cadplants.families.steel.floor import panel
@@ -19,7 +20,6 @@ from cadplants.families.steel.shape import (
     each,
     few_sides,
     flat,
-    one_of,
     pipe,
     ribbon,
     section,
@@ -27,7 +27,6 @@ from cadplants.families.steel.shape import (
     slab_xz,
     span_of,
     spread,
-    yes,
 )
 from cadplants.family import Model
 from cadplants.primitives import box, cylinder, dome, ring

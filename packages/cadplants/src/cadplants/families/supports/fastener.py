@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 
 from cadplants.builder.device import families_of
-from cadplants.builder.params import Params, among, between, chance, given, several, styled, whole
+from cadplants.builder.params import Params, among, between, chance, each, given, several, styled, whole
 from cadplants.builder.table import Table, outline
-from cadplants.families.supports.shape import Fitting, each, eye, few, shuffled, upright
+from cadplants.families.supports.shape import Fitting, eye, few, shuffled, upright
 from cadplants.family import Model
 from cadplants.mesh_ops import Solid, extrude, merge, moved
 from cadplants.modeling_style import ModelingStyle
@@ -203,8 +203,8 @@ class _Screw(_Threaded):
     nut: str = among(("hex", "square", "lock", "flange"), "the nut", when=lambda p: p.nutted and p.bolt and not p.out)
 
 
-def _screw_of(rng: np.random.Generator, p: Any, k: int) -> _Screw:
-    return _Screw.draw(rng, {**_pieces(p), "bolt": p.kinds[k] in _BOLTS})
+def _screw_of(rng: np.random.Generator, p: Any, so_far: tuple[_Screw, ...]) -> _Screw:
+    return _Screw.draw(rng, {**_pieces(p), "bolt": p.kinds[len(so_far)] in _BOLTS})
 
 
 class Screws(_Fasteners, name="screw/kinds", label="screw"):

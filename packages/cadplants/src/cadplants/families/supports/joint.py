@@ -6,10 +6,10 @@ import numpy as np
 
 from cadgraph.model.scene import Floats
 from cadplants.builder.device import families_of
-from cadplants.builder.params import Params, among, between, chance, given, several, whole
+from cadplants.builder.params import Params, among, between, chance, each, given, several, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.supports.fastener import add_piece, head_solid, nut_solid
-from cadplants.families.supports.shape import BOTH, CORNERS, Fitting, each, few, strap, upright
+from cadplants.families.supports.shape import BOTH, CORNERS, Fitting, few, strap, upright
 from cadplants.family import Model
 from cadplants.mesh_ops import extrude, moved
 from cadplants.polygon import circle, rounded_rectangle, section_i
@@ -143,7 +143,9 @@ class TieRods(Fitting, name="gusset plate/tie rods", label="gusset plate"):
     ring: float = among((0.0, 5.0), "radius of a ring in the middle / diameter of the rods; 0: none")
     taken: str = among(("bracket", "clamp"), "what the first fork is taken for")
     rods: tuple[_Rod, ...] = each(
-        lambda rng, _, k: _Rod.draw(rng, {"low": k % 2 == 0}), lambda p: 0 if p.ring else 4, "rods without a ring"
+        lambda rng, _, so_far: _Rod.draw(rng, {"low": len(so_far) % 2 == 0}),
+        lambda p: 0 if p.ring else 4,
+        "rods without a ring",
     )
 
     def build(self, t: Table) -> Model:

@@ -37,7 +37,7 @@ from cadplants.transforms import spun
 
 __all__ = [
     "BOTH", "CORNERS", "Below", "Carrier", "Feet", "Fitting", "Footing", "Overhead", "Section", "Standing",
-    "add_bolt", "add_nuts", "add_wall", "arc_yz", "bow", "chances", "each", "eye", "few", "foot_of", "hung", "picks",
+    "add_bolt", "add_nuts", "add_wall", "arc_yz", "bow", "chances", "eye", "few", "foot_of", "hung", "picks",
     "piece_of", "piecemeal", "radius", "screwed", "section_of", "shuffled", "slab_yz", "standing", "strap", "upright",
 ]  # fmt: skip
 
@@ -187,21 +187,6 @@ def shuffled(items: Sequence[str], about: str) -> tuple[str, ...]:
     limits = f"{', '.join(items)} in some order"
     draw = lambda source, _: tuple(map(str, source.rng.permutation(list(items))))  # noqa: E731
     return dataclasses.field(metadata={"spec": Field(about, "", limits, draw, accept)})  # type: ignore[no-any-return]
-
-
-def each(draw: Callable[[np.random.Generator, Any, int], T], count: Callable[[Any], int], about: str) -> tuple[T, ...]:
-    """A field: a piece for each of several things, given which one it is."""
-
-    def sample(source: Source, before: Any) -> tuple[T, ...]:
-        rng = source.rng
-        return tuple(draw(rng, before, k) for k in range(count(before)))
-
-    def accept(value: Any, before: Any) -> tuple[T, ...]:
-        if len(value) != count(before):
-            raise ValueError(f"give {count(before)} values")
-        return tuple(value)
-
-    return dataclasses.field(metadata={"spec": Field(about, "", "one each", sample, accept)})  # type: ignore[no-any-return]
 
 
 def picks(items: Sequence[T], count: int | Callable[[Any], int], about: str, when: When | None = None) -> tuple[T, ...]:
