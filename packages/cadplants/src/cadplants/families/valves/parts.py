@@ -10,7 +10,7 @@ from cadgraph.model.scene import Floats
 from cadplants.families.valves.threaded import hex_end
 from cadplants.families.valves.valve import bolt_circle, disc_flange
 from cadplants.family import Part
-from cadplants.mesh_ops import Solid, about_x, extrude, merge, moved
+from cadplants.mesh_ops import Solid, extrude, merge, moved
 from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle
 from cadplants.primitives import along, around, box, cylinder, hexagon, rope, torus, turned
@@ -24,15 +24,12 @@ __all__ = [
     "SMALL",
     "bend",
     "body",
-    "bolting",
     "bonnet",
     "branch",
     "cage",
     "chain",
     "cover",
-    "fronted",
     "hub_radius",
-    "laid",
     "other",
     "piece",
     "screwed",
@@ -64,24 +61,9 @@ def bonnet(*solids: Solid) -> Part:
     return piece("valve bonnet", *solids, color="valve")
 
 
-def bolting(solid: Solid) -> Part:
-    """Bolts as one mesh, left out by hands without fasteners."""
-    return Part(solid, "bolt", "fastener", BODY, "Connection assembly", True)
-
-
 def other(group: str, name: str, color: str, *solids: Solid, own: bool = False) -> Part:
     """A part of another group; one with the valve's mesh where the style makes it whole if it is its ``own``."""
     return Part(merge(list(solids)), name, color, BODY if own else "", group)
-
-
-def laid(parts: Sequence[Part]) -> list[Part]:
-    """What was built upon z = 0 laid along x, as a device with one flange is."""
-    return [Part(about_x(p.solid), p.name, p.color, p.bundle, p.group, p.fine) for p in parts]
-
-
-def fronted(parts: Sequence[Part]) -> list[Part]:
-    """Parts with a valve body first: the contacts of a device are recorded from its first part."""
-    return sorted(parts, key=lambda p: p.name != BODY)
 
 
 def branch(dn: int, style: ModelingStyle, reach: float, way: str, center: Sequence[float] = (0.0, 0.0, 0.0)) -> Solid:
@@ -103,24 +85,19 @@ def cover(
     n, thread = style.round(radius), max(0.005, min(0.016, 0.14 * radius))
     if corners:
         low, lid = square(radius, seat - plate, seat), square(radius, seat, seat + plate)
-        spread = 1.05 * radius
-        count = 4
+        spread, count = 1.05 * radius, 4
     else:
-        low = cylinder(radius, seat - plate, seat, n)
-        lid = cylinder(radius, seat, seat + plate, n)
+        low, lid = cylinder(radius, seat - plate, seat, n), cylinder(radius, seat, seat + plate, n)
         spread = radius - 1.1 * thread
     top = [lid]
     if hood:
+        low_hood, rise = seat + 0.6 * plate, hood + 0.4 * plate
         shares = np.linspace(0, np.pi / 2, 4)[:-1]
-        top.append(
-            turned(
-                [(0.72 * radius * np.cos(a), seat + 0.6 * plate + (hood + 0.4 * plate) * np.sin(a)) for a in shares]
-                + [(0.1 * radius, seat + plate + hood)],
-                n,
-            )
-        )
+        shell = [(0.72 * radius * np.cos(a), low_hood + rise * np.sin(a)) for a in shares]
+        top.append(turned([*shell, (0.1 * radius, seat + plate + hood)], n))
     bolts = bolt_circle(count, spread, thread, seat - plate, seat + plate)
-    return [body(low), bonnet(*top), bolting(bolts)]
+    fastening = Part(bolts, "bolt", "fastener", BODY, "Connection assembly", True)
+    return [body(low), bonnet(*top), fastening]
 
 
 def screwed(

@@ -143,10 +143,10 @@ class GasRegulator(Valve, name="pressure reducing valve/gas", sizes=sized(15, 10
         up.add("bolt", bolt_circle(self.bolts, 0.965 * rim, 0.006, flat, 1.6 * flat))
         if self.shut:
             size, base = 0.45 * rim, 1.3 * w
-            marks = ((0.7 * w, 0.3 * w), (0.7 * w, 1.25 * w), (size, base), (size, base + 0.5 * size))
+            foot = ((0.7 * w, 0.3 * w), (0.7 * w, 1.25 * w), (size, base), (size, base + 0.5 * size))
             tip = ((0.5 * size, base + 0.7 * size), (0.4 * size, base + 2.0 * size))
             way = mid.along("y" if self.aside else "-z").bundled("actuator")
-            way.add("actuator", turned([*marks, *tip], n), of="valve", own=True)
+            way.add("actuator", turned([*foot, *tip], n), of="valve", own=True)
         return t.model(round(length, 6), "flanged" if self.flanged else "welded", _REDUCING)
 
 
@@ -243,7 +243,7 @@ class FloatValve(Valve, name="float valve/arm", place="head", sizes=MID):
     long: float = between(5.0, 9.0, "length of the arm / radius of the pipe")
     tilt: float = between(-0.5, 0.3, "of the arm, downwards", "rad")
     is_round: bool = chance(0.5, "the arm is round, not flat")
-    float_: str = among(("ball", "seamed ball", "flat"), "shape of the float")
+    shape: str = among(("ball", "seamed ball", "flat"), "shape of the float")
 
     def build(self, t: Table) -> Model:
         r, thick, w = t.pipe.radius, plate_thickness(t.dn), 1.35 * t.pipe.radius + 0.008
@@ -262,9 +262,9 @@ class FloatValve(Valve, name="float valve/arm", place="head", sizes=MID):
         flat = box((long + 0.7 * w, 1.1 * half, 3 * half), ((long - 0.7 * w) / 2, 0, 0))
         arm.add("lever", rod((-0.7 * w, 0, 0), (long, 0, 0), half, 8) if self.is_round else flat, of="trim")
         m = t.n(size)
-        if self.float_ == "flat":
+        if self.shape == "flat":
             bob = [turned([(a * size, b * size) for a, b in ((0.85, -0.5), (1, -0.3), (1, 0.3), (0.85, 0.5))], m)]
-        elif self.float_ == "ball":
+        elif self.shape == "ball":
             bob = [ball(size, m)]
         else:
             bob = [ball(size, m, 0.8), ring(0.98 * size, 1.05 * size, -0.004, 0.004, m)]
