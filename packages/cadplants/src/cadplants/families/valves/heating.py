@@ -8,15 +8,12 @@ from cadplants.builder.device import families_of
 from cadplants.builder.params import Params, among, between, chance, nested, several, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.valves.base import BOTH, Valve, sized, standing
-from cadplants.families.valves.drive import wheel
-from cadplants.families.valves.parts import SMALL, bend, body, bonnet, piece, screwed, square
-from cadplants.families.valves.valve import valve_family
+from cadplants.families.valves.drive import Wheel
+from cadplants.families.valves.parts import SMALL, bend, screwed, square
 from cadplants.family import Model
-from cadplants.mesh_ops import Solid, extrude, merge, moved, tube
-from cadplants.modeling_style import ModelingStyle
+from cadplants.mesh_ops import Solid, extrude, moved, tube
 from cadplants.polygon import rounded_rectangle
 from cadplants.primitives import along, around, ball, box, cylinder, hexagon, ring, rod, turned
-from cadplants.standards import SIZES
 from cadplants.transforms import at, spun
 
 __all__ = ["HEATING"]
@@ -247,54 +244,37 @@ class Cistern(Valve, name="float valve/cistern", place="floor", sizes=SMALL):
         return standing(t, "float valve")
 
 
-def _bleed(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class Bleed(Valve, name="bleed valve/hexagon", place="tap"):
     """A bleed valve on an outlet: one hexagon, a screw down its top with a T or wing, a barbed tube aside."""
-    r = float(rng.uniform(0.007, 0.012))
-    tall = float(rng.uniform(3.0, 5.0)) * r
-    low = 0.012
-    core = [cylinder(0.85 * r, 0.0, 0.014, 12), hexagon(2.4 * r, low, low + tall)]
-    top = low + tall
-    way = spun("y", float(rng.choice([0.0, 0.0, 0.35])))
-    barb = turned(
-        [
-            (0.4 * r, 0.9 * r),
-            (0.4 * r, 2.2 * r),
-            (0.55 * r, 2.3 * r),
-            (0.4 * r, 3.0 * r),
-            (0.55 * r, 3.1 * r),
-            (0.35 * r, 3.9 * r),
-        ],
-        10,
-    )
-    core.append(moved(along("x", barb), at(0, 0, low + 0.6 * tall) @ way))
-    parts = [body(*core)]
-    neck = float(rng.uniform(0.3, 1.2)) * r
-    if rng.random() < 0.5:
-        parts.append(
-            bonnet(hexagon(1.9 * r, top - 0.001, top + neck), cylinder(0.7 * r, top, top + neck + 0.4 * r, 12))
-        )
-        neck += 0.4 * r
-    parts.append(piece("valve stem", cylinder(0.4 * r, top - 0.001, top + neck + 1.2 * r, 8)))
-    z = top + neck + 0.9 * r
-    kind = int(rng.integers(3))
-    if kind == 0:
-        parts.append(
-            piece("lever", along("x", cylinder(0.25 * r, -2.2 * r, 2.2 * r, 8), 0, 0, z), color="handle", bundle="")
-        )
-    elif kind == 1:
-        wing = merge(
-            [
-                cylinder(0.7 * r, z - 0.4 * r, z + 0.6 * r, 10),
-                *(box((1.6 * r, 0.3 * r, 1.2 * r), (s * 1.2 * r, 0, z + 0.3 * r)) for s in (-1, 1)),
-            ]
-        )
-        parts.append(piece("lever", wing, color="handle", bundle=""))
-    else:
-        parts.append(wheel(0.014 + 1.3 * r, 0, z, style, rng))
-    return Model(parts, kind="bleed valve")
+
+    radius: float = between(0.007, 0.012, "of its thread", "m")
+    tall: float = between(3.0, 5.0, "height of the hexagon / radius of the thread")
+    lean: float = among((0.0, 0.0, 0.35), "of the tube downwards", "rad")
+    neck: float = between(0.3, 1.2, "height of the nut / radius of the thread")
+    nut: bool = chance(0.5, "a nut round the screw")
+    top: str = among(("bar", "wing", "wheel"), "what turns the screw")
+    wheel: Wheel = nested(Wheel, "handwheel", when=lambda p: p.top == "wheel")
+
+    def build(self, t: Table) -> Model:
+        r, low, tall, neck = self.radius, 0.012, self.tall * self.radius, self.neck * self.radius
+        marks = ((0.4, 0.9), (0.4, 2.2), (0.55, 2.3), (0.4, 3.0), (0.55, 3.1), (0.35, 3.9))
+        barb = along("x", turned([(a * r, x * r) for a, x in marks], 10))
+        barb = moved(barb, at(0, 0, low + 0.6 * tall) @ spun("y", self.lean))
+        t.add("valve body", cylinder(0.85 * r, 0.0, 0.014, 12), hexagon(2.4 * r, low, low + tall), barb)
+        up = t.at(0, 0, low + tall)
+        if self.nut:
+            up.add("valve bonnet", hexagon(1.9 * r, -0.001, neck), cylinder(0.7 * r, 0, neck + 0.4 * r, 12))
+            neck += 0.4 * r
+        up.add("valve stem", cylinder(0.4 * r, -0.001, neck + 1.2 * r, 8))
+        up = up.at(0, 0, neck + 0.9 * r)
+        if self.top == "bar":
+            up.along("x").add("lever", cylinder(0.25 * r, -2.2 * r, 2.2 * r, 8))
+        elif self.top == "wing":
+            wings = [box((1.6 * r, 0.3 * r, 1.2 * r), (s * 1.2 * r, 0, 0.3 * r)) for s in BOTH]
+            up.add("lever", cylinder(0.7 * r, -0.4 * r, 0.6 * r, 10), *wings)
+        else:
+            self.wheel.build(up, 0.014 + 1.3 * r)
+        return t.model(kind="bleed valve")
 
 
-HEATING = (
-    *families_of(Rotary, Zone, GasBlock, Distributor, Cistern),
-    valve_family("bleed valve/hexagon", _bleed, SIZES, "tap"),
-)
+HEATING = families_of(Rotary, Zone, GasBlock, Distributor, Cistern, Bleed)

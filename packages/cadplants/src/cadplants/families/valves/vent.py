@@ -5,19 +5,16 @@ from __future__ import annotations
 import numpy as np
 
 from cadplants.builder.device import families_of
-from cadplants.builder.params import Params, among, between, chance, several, whole
+from cadplants.builder.params import Params, among, between, chance, nested, several, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.valves.base import BOTH, Valve, lying, sized
-from cadplants.families.valves.drive import wheel
-from cadplants.families.valves.parts import MID, SMALL, bend, body, bonnet, cover, hub_radius, laid, piece, screwed
-from cadplants.families.valves.valve import bolt_circle, disc_flange, flanged_body, valve_family
-from cadplants.family import Model, placed
+from cadplants.families.valves.drive import Wheel
+from cadplants.families.valves.parts import SMALL, bend, cover, hub_radius, screwed
+from cadplants.families.valves.valve import bolt_circle, disc_flange, flanged_body
+from cadplants.family import Model
 from cadplants.flange import plate_thickness
 from cadplants.mesh_ops import merge
-from cadplants.modeling_style import ModelingStyle
 from cadplants.primitives import along, around, box, cylinder, hexagon, ring, rod, rope, turned
-from cadplants.standards import PIPES
-from cadplants.transforms import at, spun
 
 __all__ = ["VENTS"]
 
@@ -131,6 +128,39 @@ class AirBowl(Valve, name="air valve/bowl", place="head", sizes=sized(25, 200)):
         else:
             small = turned(outline(0.35 * w, -0.001, 0.35 * w, 0.6 * w, 0.15 * w, 0.75 * w), n)
             t.add("valve bonnet", small, along("y", hexagon(0.25 * w + 0.004, 0.3 * w, 0.5 * w), 0, 0, 0.4 * w))
+
+
+class DoubleOrifice(Valve, name="air valve/double orifice", place="head", sizes=sized(40, 200)):
+    """A double-orifice air valve: a big and a small chamber side by side on one base, covers, an isolating wheel."""
+
+    small: float = between(0.9, 1.7, "radius of the small chamber / of the pipe")
+    tall: float = between(1.4, 2.2, "height of the small chamber / its radius")
+    isolated: bool = chance(0.6, "a wheel that shuts it off")
+    wheel: Wheel = nested(Wheel, "handwheel", when=lambda p: p.isolated)
+
+    def build(self, t: Table) -> Model:
+        r, big, small = t.pipe.radius, 1.7 * t.pipe.radius + 0.022, self.small * t.pipe.radius + 0.02
+        n, low, reach = t.n(big), plate_thickness(t.dn) + 0.02 + 1.1 * r, 0.9 * r + 0.01
+        base = along("x", cylinder(reach, -big - 0.3 * r, small + 0.3 * r, n), 0, 0, low - 0.2 * r)
+        t.add("valve body", disc_flange(t.dn, t.style, low), base)
+        for x, w, tall in ((-0.98 * big, big, 2.2 * big), (0.98 * small, small, self.tall * small)):
+            up, plate = t.at(x), 0.008 + 0.05 * w
+            up.add("valve body", turned(outline(0.6 * w, low - 0.5 * r, w, low + 0.4 * w, w, low + tall - 0.003), n))
+            up.extend(cover(1.2 * w + 0.007, low + tall, plate, 6, t.style))
+            top = low + tall + plate
+            if w == big:
+                marks = ((0.8 * r, -0.001), (0.8 * r, 0.4 * r), (1.0 * r, 0.4 * r), (0.9 * r, 0.7 * r))
+                up.add("valve bonnet", turned([(a, top + z) for a, z in marks], n))
+            else:
+                nozzle = cylinder(0.1 * small, top, top + 0.5 * small, 8)
+                up.add("valve bonnet", hexagon(0.5 * small, top - 0.001, top + 0.3 * small), nozzle)
+        if self.isolated:
+            side = t.at(0, 0, low - 0.2 * r)
+            out = side.along("-y")
+            out.add("valve stem", cylinder(0.006 + 0.06 * r, 0.0, reach + 0.07 + 0.5 * r, 10))
+            out.add("gland", hexagon(0.03 + 0.3 * r, 0.8 * reach, reach + 0.02))
+            self.wheel.build(side.spun("x", np.pi / 2), 0.03 + 0.8 * r, reach + 0.05 + 0.4 * r)
+        return lying(t, "air valve")
 
 
 class _Pallet(Params):
@@ -273,57 +303,6 @@ class VacuumBreaker(Valve, name="vacuum breaker/cowl", place="tap"):
         return t.model(kind="vacuum breaker")
 
 
-def _double(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
-    """A double-orifice air valve: a big and a small chamber side by side on one base, covers, an isolating wheel."""
-    r, thick = PIPES[dn].radius, plate_thickness(dn)
-    big, small = 1.7 * r + 0.022, float(rng.uniform(0.9, 1.7)) * r + 0.02
-    low = thick + 0.02 + 1.1 * r
-    n = style.round(big)
-    parts = [
-        body(
-            disc_flange(dn, style, low),
-            along("x", cylinder(0.9 * r + 0.01, -big - 0.3 * r, small + 0.3 * r, n), 0, 0, low - 0.2 * r),
-        )
-    ]
-    for x, wide, tall in ((-0.98 * big, big, 2.2 * big), (0.98 * small, small, float(rng.uniform(1.4, 2.2)) * small)):
-        shell = turned([(0.6 * wide, low - 0.5 * r), (wide, low + 0.4 * wide), (wide, low + tall - 0.003)], n)
-        plate = 0.008 + 0.05 * wide
-        one = [body(shell), *cover(1.2 * wide + 0.007, low + tall, plate, 6, style)]
-        top = low + tall + plate
-        if wide == big:
-            one.append(
-                bonnet(
-                    turned(
-                        [
-                            (0.8 * r, top - 0.001),
-                            (0.8 * r, top + 0.4 * r),
-                            (1.0 * r, top + 0.4 * r),
-                            (0.9 * r, top + 0.7 * r),
-                        ],
-                        n,
-                    )
-                )
-            )
-        else:
-            one.append(
-                bonnet(
-                    hexagon(0.5 * small, top - 0.001, top + 0.3 * small),
-                    cylinder(0.1 * small, top, top + 0.5 * small, 8),
-                )
-            )
-        parts += placed(one, at(x))
-    if rng.random() < 0.6:
-        z = low - 0.2 * r
-        reach = 0.9 * r + 0.01
-        shaft = along("-y", cylinder(0.006 + 0.06 * r, 0.0, reach + 0.07 + 0.5 * r, 10), 0, 0, z)
-        gland = along("-y", hexagon(0.03 + 0.3 * r, 0.8 * reach, reach + 0.02), 0, 0, z)
-        rim = placed([wheel(0.03 + 0.8 * r, 0, reach + 0.05 + 0.4 * r, style, rng)], at(0, 0, z) @ spun("x", np.pi / 2))
-        parts += [piece("valve stem", shaft), piece("gland", gland), *rim]
-    return Model(laid(parts), kind="air valve")
-
-
-VENTS = (
-    *families_of(Backflow, ThreadedBackflow, AirBowl),
-    valve_family("air valve/double orifice", _double, tuple(dn for dn in MID if dn >= 40), "head"),
-    *families_of(PlasticAir, VacuumBreaker, Breather, FlameArrester, Hatch),
+VENTS = families_of(
+    Backflow, ThreadedBackflow, AirBowl, DoubleOrifice, PlasticAir, VacuumBreaker, Breather, FlameArrester, Hatch
 )
