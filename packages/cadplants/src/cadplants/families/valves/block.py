@@ -11,7 +11,7 @@ from cadplants.builder.params import among, between, chance, nested
 from cadplants.builder.table import Table, outline
 from cadplants.families.valves.base import BOTH, Valve, lying, sized
 from cadplants.families.valves.drive import Wheel, drive_of, put_spindle
-from cadplants.families.valves.parts import SMALL, bend, cover, hub_radius, screwed
+from cadplants.families.valves.parts import SMALL, bend, cover, hub_radius, threaded_run
 from cadplants.families.valves.valve import disc_flange, flanged_body
 from cadplants.family import Model
 from cadplants.flange import plate_thickness
@@ -126,7 +126,7 @@ class Fusible(Valve, name="shut-off valve/fusible link", sizes=SMALL):
         r, length = t.pipe.radius, self.long * t.pipe.radius + 0.035
         w, n, x = 1.45 * r + 0.004, t.n(1.45 * r), length / 2
         marks = ((1.05 * r, 0.12), (w, 0.36), (w, 0.64), (1.05 * r, 0.88))
-        run = screwed(t.dn, t.style, length, [(a, f * length) for a, f in marks])
+        run = threaded_run(t, length, *marks)
         t.add("valve body", run, moved(cylinder(0.85 * w, 0.0, 1.4 * w, n), at(x)))
         low, long, up = 1.4 * w, self.lever * w, t.at(x)
         top = low + self.tall * w

@@ -8,7 +8,7 @@ from cadplants.builder.device import families_of
 from cadplants.builder.params import among, between, chance, styled, weighted, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.valves.base import BOTH, HOLLOW, Valve, lying
-from cadplants.families.valves.parts import BIG, MID, SMALL, cage, cover, hub_radius, screwed, spring, thread_nut
+from cadplants.families.valves.parts import BIG, MID, SMALL, cage, cover, hub_radius, spring, thread_nut, threaded_run
 from cadplants.families.valves.valve import bolt_circle, disc_flange, flanged_body
 from cadplants.family import Model
 from cadplants.flange import plate_thickness
@@ -347,7 +347,7 @@ class BallCheck(_Check, name="check valve/ball threaded", sizes=SMALL):
     def build(self, t: Table) -> Model:
         r, length = t.pipe.radius, self.long * t.pipe.radius + 0.035
         marks = ((1.05 * r, 0.15), (1.35 * r, 0.35), (1.35 * r, 0.65), (1.05 * r, 0.85))
-        run = screwed(t.dn, t.style, length, [(wide, f * length) for wide, f in marks])
+        run = threaded_run(t, length, *marks)
         wide, reach, n = 1.5 * r + 0.003, 2.7 * r + 0.008, t.n(1.5 * r)
         pose = at(0.4 * length) @ spun("y", -self.lean)
         arm = turned(outline(0.9 * wide, 0.0, wide, 0.4 * reach, wide, reach - 0.003), n)

@@ -9,7 +9,7 @@ from cadplants.builder.params import Params, among, between, chance, nested, sev
 from cadplants.builder.table import Table, outline
 from cadplants.families.valves.base import BOTH, Valve, sized, standing
 from cadplants.families.valves.drive import Wheel
-from cadplants.families.valves.parts import SMALL, bend, screwed, square
+from cadplants.families.valves.parts import SMALL, bend, square, threaded_run
 from cadplants.family import Model
 from cadplants.mesh_ops import Solid, extrude, moved, tube
 from cadplants.polygon import rounded_rectangle
@@ -39,9 +39,7 @@ class Rotary(Valve, name="mixing valve/rotary", sizes=SMALL):
         r, length = t.pipe.radius, self.long * t.pipe.radius + 0.025
         mid, w, deep, ways = t.at(length / 2), 1.9 * r + 0.006, 1.25 * r + 0.004, ("-z", "z")[: len(self.tails)]
         n, inner = t.n(w), 0.85 * r if t.style.hollow else 0.0
-        run = screwed(
-            t.dn, t.style, length, outline(1.15 * r, 0.12 * length, 1.15 * r, 0.88 * length), end=0.16 * length
-        )
+        run = threaded_run(t, length, (1.15 * r, 0.12), (1.15 * r, 0.88), end=0.16)
         solids = [run, along("y", cylinder(w, -deep, deep, n), length / 2)]
         for way in ways:
             stub = cylinder(1.15 * r, 0.5 * w, 0.45 * length, n), hexagon(2.4 * r + 0.006, 0.36 * length, 0.5 * length)
@@ -82,7 +80,7 @@ class Zone(Valve, name="control valve/zone", sizes=sized(15, 32)):
         r, length = t.pipe.radius, self.long * t.pipe.radius + 0.03
         x, wide, n = length / 2, 1.45 * r + 0.003, t.n(1.4 * r)
         marks = ((1.1 * r, 0.14), (wide, 0.34), (wide, 0.66), (1.1 * r, 0.86))
-        run = screwed(t.dn, t.style, length, [(a, f * length) for a, f in marks])
+        run = threaded_run(t, length, *marks)
         low, w, d, h = 1.35 * wide, self.width, self.depth, self.height
         t.add("valve body", run, moved(cylinder(0.8 * wide, 0.0, low, n), at(x)))
         up = t.at(x, 0, low)

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from cadgraph.model.scene import Floats
+from cadplants.builder.table import Table
 from cadplants.families.valves.threaded import hex_end
 from cadplants.families.valves.valve import bolt_circle, disc_flange
 from cadplants.family import Part
@@ -36,6 +37,7 @@ __all__ = [
     "spring",
     "square",
     "thread_nut",
+    "threaded_run",
 ]
 
 BODY = "valve body"
@@ -112,6 +114,11 @@ def screwed(
     end = end or 0.24 * length
     middle = along("x", turned(core, style.round(max(r for r, _ in core))))
     return merge([hex_end(dn, 0.0, end, style, corners), middle, hex_end(dn, length - end, length, style, corners)])
+
+
+def threaded_run(t: Table, length: float, *core: tuple[float, float], end: float = 0.24) -> Solid:
+    """The same for a valve on a table; the core's places, and the length of an end, as shares of the length."""
+    return screwed(t.dn, t.style, length, [(radius, share * length) for radius, share in core], end=end * length)
 
 
 def spring(radius: float, wire: float, low: float, high: float, turns: int, style: ModelingStyle) -> Solid:

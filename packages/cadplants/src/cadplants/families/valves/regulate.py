@@ -8,7 +8,7 @@ from cadplants.builder.device import families_of
 from cadplants.builder.params import Params, among, between, chance, nested, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.valves.base import BOTH, Valve, lying, sized
-from cadplants.families.valves.parts import MID, SMALL, bend, cover, hub_radius, screwed, spring
+from cadplants.families.valves.parts import MID, SMALL, bend, cover, hub_radius, spring, threaded_run
 from cadplants.families.valves.valve import bolt_circle, disc_flange, flanged_body
 from cadplants.family import Model
 from cadplants.flange import plate_thickness
@@ -41,11 +41,6 @@ class _Globe(Params):
         return flanged_body(t.dn, t.style, length, middle), length, w
 
 
-def _run(t: Table, length: float, *marks: tuple[float, float], end: float = 0.0) -> Solid:
-    """A threaded body along x; its core as radius and place / length."""
-    return screwed(t.dn, t.style, length, [(a, f * length) for a, f in marks], end=end)
-
-
 class FilterBowl(Valve, name="pressure reducing valve/filter bowl", sizes=SMALL):
     """A domestic pressure reducer (EN 1567): threaded body, tapered spring hood, knob, clear bowl below."""
 
@@ -57,7 +52,7 @@ class FilterBowl(Valve, name="pressure reducing valve/filter bowl", sizes=SMALL)
     def build(self, t: Table) -> Model:
         r, length, w = t.pipe.radius, self.long * t.pipe.radius + 0.04, 1.45 * t.pipe.radius + 0.006
         n, low, tall, deep = t.n(1.6 * r), 1.25 * w, self.tall * w, self.deep * w
-        run = _run(t, length, (1.1 * r, 0.15), (w, 0.32), (w, 0.68), (1.1 * r, 0.85))
+        run = threaded_run(t, length, (1.1 * r, 0.15), (w, 0.32), (w, 0.68), (1.1 * r, 0.85))
         t.add("valve body", run, moved(cylinder(1.05 * w, -low, low, n), at(length / 2)))
         mid = t.at(length / 2)
         up, end = mid.at(0, 0, low), mid.at(0, 0, low + tall)
@@ -126,7 +121,7 @@ class GasRegulator(Valve, name="pressure reducing valve/gas", sizes=sized(15, 10
             low = 0.5 * t.flange.outer + 0.01
         else:
             length, w, low = 4.4 * r + 0.05, 1.45 * r + 0.004, 0.0
-            shell = _run(t, length, (1.1 * r, 0.15), (w, 0.35), (w, 0.65), (1.1 * r, 0.85))
+            shell = threaded_run(t, length, (1.1 * r, 0.15), (w, 0.35), (w, 0.65), (1.1 * r, 0.85))
         t.add("valve body", shell)
         rim, low = self.rim * w + 0.03, max(1.25 * w, low)
         n, flat, tower, mid = t.n(rim), 0.12 * rim, self.tower * rim, t.at(length / 2)
@@ -284,7 +279,7 @@ class MixingValve(Valve, name="mixing valve/thermostatic", sizes=SMALL):
     def build(self, t: Table) -> Model:
         r, length, w = t.pipe.radius, self.long * t.pipe.radius + 0.03, 1.5 * t.pipe.radius + 0.003
         n, mid, bore = t.n(1.5 * r), t.at(length / 2), float(t.style.hollow)
-        run = _run(t, length, (1.05 * r, 0.12), (1.25 * r, 0.3), (1.25 * r, 0.7), (1.05 * r, 0.88), end=0.15 * length)
+        run = threaded_run(t, length, (1.05 * r, 0.12), (1.25 * r, 0.3), (1.25 * r, 0.7), (1.05 * r, 0.88), end=0.15)
         barrel = turned(outline(0.9 * w, -1.2 * w, w, -0.8 * w, w, 1.4 * w), n)
         t.add("valve body", run, moved(barrel, at(length / 2)))
         for f in (0.15, 0.75) if self.unions else ():

@@ -9,7 +9,7 @@ from cadplants.builder.params import Params, among, between, chance, nested, sev
 from cadplants.builder.table import Table, outline
 from cadplants.families.valves.base import BOTH, Valve, lying, sized
 from cadplants.families.valves.drive import Wheel
-from cadplants.families.valves.parts import SMALL, bend, cover, hub_radius, screwed
+from cadplants.families.valves.parts import SMALL, bend, cover, hub_radius, threaded_run
 from cadplants.families.valves.valve import bolt_circle, disc_flange, flanged_body
 from cadplants.family import Model
 from cadplants.flange import plate_thickness
@@ -69,7 +69,7 @@ class ThreadedBackflow(Valve, name="backflow preventer/threaded", sizes=SMALL):
         r, length = t.pipe.radius, self.long * t.pipe.radius + 0.06
         n, w, mid = t.n(1.5 * r), 1.45 * r + 0.004, 0.51 * length
         marks = ((1.1 * r, 0.12), (w, 0.28), (w, 0.74), (1.1 * r, 0.88))
-        t.add("valve body", screwed(t.dn, t.style, length, [(a, f * length) for a, f in marks], end=0.14 * length))
+        t.add("valve body", threaded_run(t, length, *marks, end=0.14))
         for x in (0.15 * length, 0.8 * length):
             t.at(x).along("x").add("union", hexagon(3.4 * r + 0.006, 0, 0.07 * length), of="valve", own=True)
         for x in (0.36 * length, 0.66 * length)[: self.caps]:
