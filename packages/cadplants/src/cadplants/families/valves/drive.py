@@ -21,7 +21,7 @@ from cadplants.standards import PIPES
 from cadplants.transforms import at, spun
 
 __all__ = [
-    "BODY", "DiaphragmHead", "Drive", "Wheel", "diaphragm_head", "drive", "drive_of", "driven", "put_spindle", "stem",
+    "BODY", "DiaphragmHead", "Drive", "Wheel", "drive", "drive_of", "driven", "put_spindle", "stem",
     "table_for", "wheel",
 ]  # fmt: skip
 
@@ -67,7 +67,7 @@ class Wheel(Params):
     def build(self, t: Table, radius: float, z: float = 0.0, turns: str = "handwheel") -> None:
         """Puts it down with its hub on a height [m]; ``turns``: what it is turned as."""
         solid = moved(self.solid(radius, t.style), spun("z", self.turn))
-        t.at(0, 0, z).add("handwheel", solid, turns=Turning(turns))
+        t.at(0, 0, z).add("handwheel", solid, turns=Turning(turns) if turns else None)
 
 
 def _strip(path: list[tuple[float, float]], half: float, thick: float) -> Solid:
@@ -357,11 +357,4 @@ def drive(x: float, z: float, radius: float, style: ModelingStyle, rng: Rng, kin
     """One of some drives at random on a stem at ``x`` whose collar's top is on ``z``, scaled by a pipe's radius [m]."""
     t = table_for(style)
     _drives(*kinds).draw(rng, {"radius": radius}).build(t.at(x, 0, z))
-    return t.parts
-
-
-def diaphragm_head(x: float, z: float, radius: float, style: ModelingStyle, rng: Rng) -> list[Part]:
-    """A diaphragm actuator on a stem at ``x``, its yoke's foot on ``z``, scaled by a pipe's radius [m]."""
-    t = table_for(style)
-    DiaphragmHead.draw(rng).build(t.at(x, 0, z), radius)
     return t.parts
