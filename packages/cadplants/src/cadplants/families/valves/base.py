@@ -2,20 +2,15 @@
 
 from __future__ import annotations
 
-from cadplants.builder.device import Device
 from cadplants.builder.table import Table
 from cadplants.family import Model, Part
 from cadplants.mesh_ops import about_x
 from cadplants.standards import SIZES
 
-__all__ = ["BOTH", "HOLLOW", "Valve", "lying", "sized", "standing"]
+__all__ = ["BOTH", "HOLLOW", "lying", "sized", "standing"]
 
 BOTH = (-1, 1)
 HOLLOW = "whether insides are modelled"
-
-
-class Valve(Device, place="inline", group="Valve assembly", label="valve", bundle="valve body"):
-    """A valve."""
 
 
 def sized(least: int = 0, most: int = 10_000) -> tuple[int, ...]:

@@ -9,10 +9,10 @@ import numpy as np
 from cadplants.builder.device import families_of
 from cadplants.builder.params import among, between, chance, nested
 from cadplants.builder.table import Table, outline
-from cadplants.families.valves.base import BOTH, Valve, lying, sized
+from cadplants.families.valves.base import BOTH, lying, sized
 from cadplants.families.valves.drive import Wheel, drive_of, put_spindle
 from cadplants.families.valves.parts import SMALL, bend, cover, hub_radius, threaded_run
-from cadplants.families.valves.valve import disc_flange, flanged_body
+from cadplants.families.valves.valve import Valve, disc_flange, flanged_body
 from cadplants.family import Model
 from cadplants.flange import plate_thickness
 from cadplants.mesh_ops import Solid, extrude, moved

@@ -12,12 +12,12 @@ from cadplants.builder.table import Table, outline
 from cadplants.families.valves.actuation_base import INDICATORS, STEMS, put_indicator, put_stem
 from cadplants.families.valves.actuation_hand import Handwheel, wheels
 from cadplants.families.valves.actuation_stroke import STROKES, Yoke, linear_of
-from cadplants.families.valves.base import HOLLOW, Valve, lying, sized
+from cadplants.families.valves.base import HOLLOW, lying, sized
 from cadplants.families.valves.body import Packing, ended, lid_joint, neck_of, room
 from cadplants.families.valves.globe import globe_plug
 from cadplants.families.valves.pieces import GlobeBody
 from cadplants.families.valves.threaded import hex_end
-from cadplants.families.valves.valve import disc_flange
+from cadplants.families.valves.valve import Valve, disc_flange
 from cadplants.family import Model
 from cadplants.mesh_ops import Solid, moved
 from cadplants.primitives import AXES, along, ball, cylinder, dome, hexagon, ring, turned

@@ -7,9 +7,10 @@ import numpy as np
 from cadplants.builder.device import families_of
 from cadplants.builder.params import Params, among, between, chance, nested, several, whole
 from cadplants.builder.table import Table, outline
-from cadplants.families.valves.base import BOTH, Valve, sized, standing
+from cadplants.families.valves.base import BOTH, sized, standing
 from cadplants.families.valves.drive import Wheel
 from cadplants.families.valves.parts import SMALL, bend, square, threaded_run
+from cadplants.families.valves.valve import Valve
 from cadplants.family import Model
 from cadplants.mesh_ops import Solid, extrude, moved, tube
 from cadplants.polygon import rounded_rectangle
@@ -158,13 +159,13 @@ class Distributor(Valve, name="control valve/distributor", place="floor", sizes=
 
     count: int = whole(3, 7, "loops")
     high: float = between(0.5, 0.9, "height of the lower bar", "m")
-    radius: float = among((0.0167, 0.021), "of the bar", "m")
+    bar: float = among((0.0167, 0.021), "radius of the bar", "m")
     heads: str = among(("thermal", "slim", "hand"), "heads of the valves")
     upper: bool = among((False, True), "the bar is the upper one of two")
     lead: float = between(0.1, 0.3, "length of the pipe that leads to it", "m")
 
     def build(self, t: Table) -> Model:
-        r, wide, n = self.radius, self.count * 0.05 + 0.06, t.n(0.02)
+        r, wide, n = self.bar, self.count * 0.05 + 0.06, t.n(0.02)
         z, hollow = self.high + 0.2 * self.upper, float(t.style.hollow)
         t.add("wall", box((wide + 0.4, 0.1, self.high + 0.5), (wide / 2, 0.11, (self.high + 0.5) / 2)))
         bar, solids = t.at(0, 0, z), [along("x", cylinder(r, 0.0, wide, n))]
@@ -201,7 +202,7 @@ class Cistern(Valve, name="float valve/cistern", place="floor", sizes=SMALL):
     depth: float = between(0.35, 0.6, "of the cistern", "m")
     height: float = between(0.35, 0.6, "of the cistern", "m")
     base: float = among((0.0, 0.3, 0.8), "height of its legs", "m")
-    radius: float = among((0.0107, 0.0134), "of the shank", "m")
+    shank: float = among((0.0107, 0.0134), "radius of the shank", "m")
     long: float = between(0.2, 0.35, "length of the arm, where the cistern has room", "m")
     tilt: float = between(0.1, 0.5, "of the arm, downwards", "rad")
     size: float = between(0.045, 0.06, "radius of the float", "m")
@@ -214,7 +215,7 @@ class Cistern(Valve, name="float valve/cistern", place="floor", sizes=SMALL):
             self.height,
             self.base,
             0.006,
-            self.radius,
+            self.shank,
             t.n(0.02),
         )
         high = base + tall / 2
@@ -245,7 +246,7 @@ class Cistern(Valve, name="float valve/cistern", place="floor", sizes=SMALL):
 class Bleed(Valve, name="bleed valve/hexagon", place="tap"):
     """A bleed valve on an outlet: one hexagon, a screw down its top with a T or wing, a barbed tube aside."""
 
-    radius: float = between(0.007, 0.012, "of its thread", "m")
+    thread: float = between(0.007, 0.012, "radius of its thread", "m")
     tall: float = between(3.0, 5.0, "height of the hexagon / radius of the thread")
     lean: float = among((0.0, 0.0, 0.35), "of the tube downwards", "rad")
     neck: float = between(0.3, 1.2, "height of the nut / radius of the thread")
@@ -254,7 +255,7 @@ class Bleed(Valve, name="bleed valve/hexagon", place="tap"):
     wheel: Wheel = nested(Wheel, "handwheel", when=lambda p: p.top == "wheel")
 
     def build(self, t: Table) -> Model:
-        r, low, tall, neck = self.radius, 0.012, self.tall * self.radius, self.neck * self.radius
+        r, low, tall, neck = self.thread, 0.012, self.tall * self.thread, self.neck * self.thread
         marks = ((0.4, 0.9), (0.4, 2.2), (0.55, 2.3), (0.4, 3.0), (0.55, 3.1), (0.35, 3.9))
         barb = along("x", turned([(a * r, x * r) for a, x in marks], 10))
         barb = moved(barb, at(0, 0, low + 0.6 * tall) @ spun("y", self.lean))

@@ -14,9 +14,10 @@ from cadplants.families.valves.actuation_base import STEMS, put_stem
 from cadplants.families.valves.actuation_hand import Handwheel, slab, wheels
 from cadplants.families.valves.actuation_stroke import STROKES, Yoke
 from cadplants.families.valves.ball import ferrule, part_ring
-from cadplants.families.valves.base import BOTH, Valve, sized
+from cadplants.families.valves.base import BOTH, sized
 from cadplants.families.valves.body import bolts_on, ended, lid_joint, neck_of, oval, plate_outline
 from cadplants.families.valves.pieces import Clamps
+from cadplants.families.valves.valve import Valve
 from cadplants.family import Model
 from cadplants.flange import plate_thickness
 from cadplants.mesh_ops import Solid, about_x, merge, moved

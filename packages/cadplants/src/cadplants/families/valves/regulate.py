@@ -7,9 +7,9 @@ import numpy as np
 from cadplants.builder.device import families_of
 from cadplants.builder.params import Params, among, between, chance, nested, whole
 from cadplants.builder.table import Table, outline
-from cadplants.families.valves.base import BOTH, Valve, lying, sized
+from cadplants.families.valves.base import BOTH, lying, sized
 from cadplants.families.valves.parts import MID, SMALL, bend, cover, hub_radius, spring, threaded_run
-from cadplants.families.valves.valve import bolt_circle, disc_flange, flanged_body
+from cadplants.families.valves.valve import Valve, bolt_circle, disc_flange, flanged_body
 from cadplants.family import Model
 from cadplants.flange import plate_thickness
 from cadplants.mesh_ops import Solid, moved

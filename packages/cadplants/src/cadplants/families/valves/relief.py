@@ -7,9 +7,9 @@ import numpy as np
 from cadplants.builder.device import families_of
 from cadplants.builder.params import Params, among, between, chance, nested, whole
 from cadplants.builder.table import Table, outline
-from cadplants.families.valves.base import BOTH, Valve, lying, sized
+from cadplants.families.valves.base import BOTH, lying, sized
 from cadplants.families.valves.parts import MID, bend, branch, cover, hub_radius, spring
-from cadplants.families.valves.valve import disc_flange
+from cadplants.families.valves.valve import Valve, disc_flange
 from cadplants.family import Model
 from cadplants.flange import plate_thickness
 from cadplants.mesh_ops import Solid, merge, moved, tube
@@ -192,14 +192,14 @@ class WeightLoaded(_Safety, name="relief valve/weight loaded", weight=0.7):
 class Thermal(Valve, name="relief valve/thermal", place="tap"):
     """A thermal relief valve on an outlet: hexagon body, threaded side outlet with a bent tail pipe, sealed cap."""
 
-    radius: float = between(0.009, 0.014, "of its thread", "m")
+    thread: float = between(0.009, 0.014, "radius of its thread", "m")
     tall: float = between(3.0, 6.0, "height of the bonnet / radius of the thread")
     piped: bool = chance(0.6, "a pipe leads away from its outlet")
     drop: float = between(0.1, 0.35, "how far that pipe comes down", "m", when=lambda p: p.piped)
     sealed: bool = chance(0.4, "a lead seal on a wire")
 
     def build(self, t: Table) -> Model:
-        r, tall, low = self.radius, self.tall * self.radius, 0.012 + 1.2 * self.radius
+        r, tall, low = self.thread, self.tall * self.thread, 0.012 + 1.2 * self.thread
         n, axis, top = t.n(1.4 * r), low + 1.4 * r, low + 2.8 * r
         out = along("y", hexagon(2.6 * r, 1.0 * r, 2.6 * r), 0, 0, axis)
         chest = [hexagon(2.6 * r, 0.012, 0.012 + 1.3 * r), cylinder(1.35 * r, low, top, n), out]
@@ -222,12 +222,12 @@ class Thermal(Valve, name="relief valve/thermal", place="tap"):
 class WaterHeater(Valve, name="relief valve/water heater", place="tap"):
     """A temperature-and-pressure valve of a water heater: brass body, spout aside, spring dome, test flap on top."""
 
-    radius: float = between(0.010, 0.015, "of its thread", "m")
+    thread: float = between(0.010, 0.015, "radius of its thread", "m")
     domed: bool = chance(0.5, "a low dome rather than a tall cone over the spring")
     tilt: float = between(-0.4, 0.1, "of the test flap", "rad")
 
     def build(self, t: Table) -> Model:
-        r, low = self.radius, 0.018 + 1.1 * self.radius
+        r, low = self.thread, 0.018 + 1.1 * self.thread
         n, top = t.n(1.5 * r), low + 3.1 * r
         marks = ((1.2, 0), (1.6, 0.8), (1.6, 2.6), (1.9, 2.7), (1.9, 3.1))
         solids = [cylinder(0.9 * r, 0.0, 0.022, n), hexagon(2.7 * r, 0.018, 0.018 + 1.2 * r)]

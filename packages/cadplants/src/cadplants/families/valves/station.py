@@ -9,9 +9,10 @@ import numpy as np
 from cadplants.builder.device import families_of
 from cadplants.builder.params import Params, among, between, chance, given, nested, several, whole
 from cadplants.builder.table import Table, outline
-from cadplants.families.valves.base import BOTH, Valve, standing
+from cadplants.families.valves.base import BOTH, standing
 from cadplants.families.valves.drive import Wheel, drive_of, put_spindle
 from cadplants.families.valves.parts import SMALL, bend, chain, square
+from cadplants.families.valves.valve import Valve
 from cadplants.family import Model
 from cadplants.mesh_ops import merge, moved, tube
 from cadplants.primitives import along, around, ball, box, cylinder, hexagon, ring, rope, turned
@@ -135,14 +136,14 @@ class Manifold(_Station, name="needle valve/manifold"):
     """An instrument manifold (IEC 61518 spacing) of two, three or five valves on a pipe post, with impulse tubes."""
 
     count: int = among((2, 3, 5), "valves")
-    radius: float = between(0.008, 0.011, "of a valve", "m")
+    core: float = between(0.008, 0.011, "radius of a valve", "m")
     high: float = between(0.9, 1.5, "height of the block's middle", "m")
     knob: str = among(_KNOBS, _ABOUT_KNOB + ", but for five valves, which have knobs")
     tall: float = between(0.05, 0.09, "height of the block", "m")
     flanged: bool = chance(0.5, "square flanges for the instrument")
     ends: bool = chance(0.5, "the outer valves are on the block's ends", when=lambda p: p.count < 5)
     needles: tuple[_Needle, ...] = several(
-        lambda rng, p: _Needle.draw(rng, {"knob": "knob" if p.count == 5 else p.knob, "radius": p.radius}),
+        lambda rng, p: _Needle.draw(rng, {"knob": "knob" if p.count == 5 else p.knob, "radius": p.core}),
         lambda p: p.count,
         "headworks of the valves",
     )
@@ -193,15 +194,13 @@ class Panel(_Station, name="needle valve/panel", weight=0.7):
     high: float = between(1.0, 1.4, "height of the panel's middle", "m")
     tall: float = between(0.25, 0.5, "height of the panel", "m")
     angular: tuple[bool, ...] = several(lambda rng, _: bool(rng.random() < 0.5), lambda _: 2, _SQUARE_POST)
-    radius: float = between(0.008, 0.012, "of the valve", "m")
+    core: float = between(0.008, 0.012, "radius of a valve", "m")
     knob: str = among(_KNOBS, _ABOUT_KNOB)
     spot: int = among(lambda p: tuple(range(p.count)), "which place has the valve")
-    needle: _Needle = nested(
-        lambda s, p: _Needle.draw(s, {"knob": p.knob, "radius": p.radius}), "headwork of the valve"
-    )
+    needle: _Needle = nested(lambda s, p: _Needle.draw(s, {"knob": p.knob, "radius": p.core}), "headwork of the valve")
 
     def build(self, t: Table) -> Model:
-        r, high, tall, wide = self.radius, self.high, self.tall, 0.16 * self.count + 0.1
+        r, high, tall, wide = self.core, self.high, self.tall, 0.16 * self.count + 0.1
         t.at(0, 0, high).add("plate", box((wide, 0.004, tall)))
         for s, angular in zip(BOTH, self.angular, strict=True):
             _foot(t.at(s * (wide / 2 - 0.02), 0.022), high + tall / 2, angular)

@@ -9,8 +9,9 @@ import numpy as np
 from cadplants.builder.device import families_of
 from cadplants.builder.params import Params, among, between, chance, nested
 from cadplants.builder.table import Table, outline
-from cadplants.families.valves.base import BOTH, Valve, sized
+from cadplants.families.valves.base import BOTH, sized
 from cadplants.families.valves.drive import Wheel, drive_of, put_spindle
+from cadplants.families.valves.valve import Valve
 from cadplants.family import Model
 from cadplants.mesh_ops import Solid, extrude, merge, moved
 from cadplants.modeling_style import ModelingStyle
@@ -264,10 +265,10 @@ class ThreadedRelief(Valve, name="relief valve/threaded", place="tap"):
 class AirVent(Valve, name="air vent/float", place="tap"):
     """An automatic air vent: a float chamber on a nipple with a small cap."""
 
-    radius: float = between(0.018, 0.04, "of the chamber", "m")
+    chamber: float = between(0.018, 0.04, "radius of the chamber", "m")
 
     def build(self, t: Table) -> Model:
-        r, marks = self.radius, ((1, 0), (1, 2.4), (0.5, 2.9), (0.3, 3.0))
+        r, marks = self.chamber, ((1, 0), (1, 2.4), (0.5, 2.9), (0.3, 3.0))
         shape = [(0.009, 0.0), (0.009, 0.02), *((a * r, 0.03 + z * r) for a, z in marks)]
         t.add("valve body", turned(shape, t.n(0.03)))
         t.at(0.4 * r, 0, 0.03 + 2.8 * r).add("valve bonnet", cylinder(0.3 * r, 0.0, 0.5 * r, 10), of="trim")
@@ -277,11 +278,11 @@ class AirVent(Valve, name="air vent/float", place="tap"):
 class Cock(Valve, name="sampling valve/cock", place="tap"):
     """A drain or sampling cock on an outlet: hexagon body, spout aside, a wing or lever."""
 
-    radius: float = between(0.008, 0.014, "of its body", "m")
-    drive: Any = drive_of("wing", "lever", "bar", radius=lambda p: p.radius)
+    body: float = between(0.008, 0.014, "radius of its body", "m")
+    drive: Any = drive_of("wing", "lever", "bar", radius=lambda p: p.body)
 
     def build(self, t: Table) -> Model:
-        r, n, top = self.radius, 12, 0.03 + 4 * self.radius
+        r, n, top = self.body, 12, 0.03 + 4 * self.body
         solids = [cylinder(0.8 * r, 0.0, 0.02, n), hexagon(2.4 * r, 0.015, 0.015 + 1.6 * r), cylinder(r, 0.015, top, n)]
         spout = rod((0, 0, 0.02 + 2.2 * r), (0, 4 * r, 0.02 + 1.4 * r), 0.7 * r, n)
         t.add("valve body", *solids, spout, of="trim")

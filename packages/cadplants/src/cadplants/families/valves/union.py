@@ -13,10 +13,11 @@ from cadplants.families.valves.actuation import operator
 from cadplants.families.valves.actuation_base import put_stem
 from cadplants.families.valves.actuation_hand import Handlever, Handwheel, levers, slab, span
 from cadplants.families.valves.ball import ferrule
-from cadplants.families.valves.base import BOTH, HOLLOW, Valve, sized
+from cadplants.families.valves.base import BOTH, HOLLOW, sized
 from cadplants.families.valves.body import Packing, neck_of, part_turned, valve_ball
 from cadplants.families.valves.pieces import BallInside, Clamps, StemTop
 from cadplants.families.valves.threaded import hex_end
+from cadplants.families.valves.valve import Valve
 from cadplants.family import Model
 from cadplants.mesh_ops import Solid, about_x, merge, moved
 from cadplants.polygon import circle, rounded_rectangle

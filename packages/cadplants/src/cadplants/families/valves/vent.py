@@ -7,10 +7,10 @@ import numpy as np
 from cadplants.builder.device import families_of
 from cadplants.builder.params import Params, among, between, chance, nested, several, whole
 from cadplants.builder.table import Table, outline
-from cadplants.families.valves.base import BOTH, Valve, lying, sized
+from cadplants.families.valves.base import BOTH, lying, sized
 from cadplants.families.valves.drive import Wheel
 from cadplants.families.valves.parts import SMALL, bend, cover, hub_radius, threaded_run
-from cadplants.families.valves.valve import bolt_circle, disc_flange, flanged_body
+from cadplants.families.valves.valve import Valve, bolt_circle, disc_flange, flanged_body
 from cadplants.family import Model
 from cadplants.flange import plate_thickness
 from cadplants.mesh_ops import merge
@@ -267,13 +267,13 @@ class Hatch(Valve, name="breather valve/hatch", place="head", sizes=sized(80), w
 class PlasticAir(Valve, name="air valve/plastic", place="tap"):
     """A plastic combination air valve on an outlet: hexagon base, ribbed barrel, screwed dome, drain elbow."""
 
-    radius: float = between(0.025, 0.05, "of the barrel", "m")
+    barrel: float = between(0.025, 0.05, "radius of the barrel", "m")
     tall: float = between(1.5, 3.0, "height of the barrel / its radius")
     ribbed: bool = chance(0.6, "ribs along the barrel")
     rise: float = between(0.5, 1.4, "height of the dome / radius of the barrel")
 
     def build(self, t: Table) -> Model:
-        r, n, tall, rise = self.radius, t.n(self.radius), self.tall * self.radius, self.rise * self.radius
+        r, n, tall, rise = self.barrel, t.n(self.barrel), self.tall * self.barrel, self.rise * self.barrel
         top = 0.04 + tall
         barrel = turned(outline(0.6 * r, 0.032, 1.0 * r, 0.04, 1.0 * r, top), n)
         ribs = [around(box((0.1 * r, 0.12 * r, 0.9 * tall), (0, 0, 0.04 + 0.5 * tall)), 8, r)] if self.ribbed else []
@@ -287,13 +287,13 @@ class PlasticAir(Valve, name="air valve/plastic", place="tap"):
 class VacuumBreaker(Valve, name="vacuum breaker/cowl", place="tap"):
     """A vacuum breaker on an outlet: hexagon body, slotted cowl or mushroom cap with a disc beneath."""
 
-    radius: float = between(0.010, 0.018, "of its thread", "m")
+    thread: float = between(0.010, 0.018, "radius of its thread", "m")
     gap: float = between(0.4, 1.0, "height of the slot under the cap / radius of the thread")
     posts: int = among((3, 4, 6), "posts that hold the cap")
 
     def build(self, t: Table) -> Model:
-        r, low, gap = self.radius, 0.018 + 1.4 * self.radius, self.gap * self.radius
-        n, up = t.n(2 * r), t.at(0, 0, 0.018 + 2.8 * self.radius)
+        r, low, gap = self.thread, 0.018 + 1.4 * self.thread, self.gap * self.thread
+        n, up = t.n(2 * r), t.at(0, 0, 0.018 + 2.8 * self.thread)
         cup = turned(outline(1.1 * r, low - 0.001, 1.9 * r, low + 1.0 * r, 1.9 * r, low + 1.4 * r), n)
         t.add("valve body", cylinder(0.9 * r, 0.0, 0.024, n), hexagon(2.8 * r, 0.016, low), cup)
         posts = around(box((0.3 * r, 0.3 * r, gap + 0.002), (0, 0, gap / 2)), self.posts, 1.6 * r)
