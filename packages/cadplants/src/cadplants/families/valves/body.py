@@ -138,7 +138,7 @@ def bolts_on(edge: Floats, count: int, low: float, high: float, thread: float) -
 
 
 def lid_joint(
-    kind: str, a: float, b: float, seat: float, plate: float, style: ModelingStyle, rng: Rng
+    kind: str, a: float, b: float, seat: float, plate: float, style: ModelingStyle, rng: Rng | None = None
 ) -> tuple[Solid, Solid, Part]:
     """The body's collar below ``seat``, the lid's plate above it, and the bolts through both [m]."""
     edge = plate_outline(kind, a, b, style.round(b))
