@@ -71,7 +71,7 @@ class Cage(_Control, name="control valve/cage", weight=2):
     def build(self, t: Table) -> Model:
         r, length, throat = t.pipe.radius, FACE_TO_FACE["globe"][t.dn] * self.long, self.throat * t.pipe.radius + 0.008
         seat, plate, half = max(room(t.dn) * 0.9, 1.8 * r + 0.02), 0.012 + 0.12 * r, throat * 1.35 + 0.01
-        collar, lid, bolts = lid_joint(self.joint, half, half, seat, plate, t.style, np.random.default_rng())
+        collar, lid, bolts = lid_joint(self.joint, half, half, seat, plate, t.style)
         n, slim, top, up = t.n(throat, 16), 0.006 + 0.08 * r, seat + plate, t.at(length / 2)
         high = top + self.high * r + 0.015
         t.add("valve body", self.body.solid(t, length, self.ends, seat, throat), moved(collar, at(length / 2)))
@@ -102,7 +102,7 @@ class Angle(Valve, name="control valve/angle", place="head", sizes=sized(15, 200
         r, size, big = t.pipe.radius, t.flange.outer, self.belly * t.pipe.radius + 0.008
         n, axis, throat, plate = t.n(big, 16), 0.55 * size + 0.05, 1.2 * r + 0.006, 0.01 + 0.1 * r
         seat, half = axis + max(0.52 * size, 1.6 * r), 1.4 * throat + 0.008
-        collar, lid, bolts = lid_joint(self.joint, half, half, seat, plate, t.style, np.random.default_rng())
+        collar, lid, bolts = lid_joint(self.joint, half, half, seat, plate, t.style)
         flange = disc_flange(t.dn, t.style, axis)
         if self.tapered:
             marks = ((0.9 * r, -1.3 * big), (big, -0.7 * big), (big, 0.9 * big), (throat, 1.2 * big))

@@ -13,10 +13,9 @@ from cadplants.families.valves.actuation import operator
 from cadplants.families.valves.actuation_base import STEMS, put_stem
 from cadplants.families.valves.actuation_hand import Handwheel, slab, wheels
 from cadplants.families.valves.actuation_stroke import STROKES, Yoke
-from cadplants.families.valves.ball import ferrule, part_ring
+from cadplants.families.valves.ball import ClampedEnds, ferrule, part_ring
 from cadplants.families.valves.base import BOTH, sized
 from cadplants.families.valves.body import bolts_on, ended, lid_joint, neck_of, oval, plate_outline
-from cadplants.families.valves.pieces import Clamps
 from cadplants.families.valves.valve import Valve
 from cadplants.family import Model
 from cadplants.flange import plate_thickness
@@ -55,7 +54,7 @@ class StraightDiaphragm(Valve, name="diaphragm valve/straight through", sizes=si
         r, length, (neck, back) = t.pipe.radius, FACE_TO_FACE["gate"][t.dn] * 1.1, neck_of(t.dn)
         x, n, a, b = length / 2, t.n(1.6 * r, 16), min(0.42 * length, 1.7 * r + 0.012), 1.25 * r + 0.014
         seat, plate, up, wide = 1.25 * r + 0.006, 0.009 + 0.07 * r, t.at(length / 2), 1.08 * r + 0.004
-        collar, lid, bolts = lid_joint(self.joint, a, b, seat, plate, t.style, np.random.default_rng())
+        collar, lid, bolts = lid_joint(self.joint, a, b, seat, plate, t.style)
         tray = _ovals(a, b, n, (0.5, 0.4, -1.1 * r), (0.7, 0.8, -0.3 * r), (0.85, 0.85, seat - 0.5 * plate))
         rise = seat + 0.004 + plate
         high = rise + self.tall * r + 0.02
@@ -87,7 +86,7 @@ class Aseptic(Valve, name="diaphragm valve/aseptic", sizes=sized(15, 100), weigh
     corner: float = between(0.15, 0.6, "radius of the joint's corners / half its width")
     tall: float = between(1.0, 2.2, "height of the bonnet / radius of the pipe")
     is_round: bool = chance(0.5, "the bonnet is round")
-    clamps: Clamps = nested(Clamps, "clamps at both ends", when=lambda p: p.ends == "clamp")
+    clamps: ClampedEnds = nested(ClampedEnds, "clamps at both ends", when=lambda p: p.ends == "clamp")
     wheeled: bool = chance(0.65, _ABOUT_WHEELED)
     wheel: Handwheel = nested(wheels("lobed", "lobed", "spoked", "dished"), "handwheel", when=lambda p: p.wheeled)
     upright: bool = chance(0.5, "the actuator is an upright cylinder", when=lambda p: not p.wheeled)
@@ -120,7 +119,7 @@ class Aseptic(Valve, name="diaphragm valve/aseptic", sizes=sized(15, 100), weigh
         up.add("valve bonnet", slab(flat, low, low + 0.008 + 0.12 * r), *lid, of="trim")
         up.extend([bolts_on(flat, 4, seat - 0.008, low + 0.009 + 0.12 * r, 0.005 + 0.04 * r)])
         if clamped:
-            self.clamps.build(t, stub, length)
+            self.clamps.build(t, t.dn, stub, length)
         if self.wheeled:
             put_stem(up.at(0, 0, high), -0.004, 0.02 + r, 0.15 * half)
             self.wheel.build(up.at(0, 0, high), 0.85 * half + 0.008, 0.001)

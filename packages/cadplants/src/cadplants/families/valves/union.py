@@ -12,10 +12,9 @@ from cadplants.builder.table import Table, outline
 from cadplants.families.valves.actuation import operator
 from cadplants.families.valves.actuation_base import put_stem
 from cadplants.families.valves.actuation_hand import Handlever, Handwheel, levers, slab, span
-from cadplants.families.valves.ball import ferrule
+from cadplants.families.valves.ball import BallInside, ClampedEnds, StemTop, ferrule
 from cadplants.families.valves.base import BOTH, HOLLOW, sized
 from cadplants.families.valves.body import Packing, neck_of, part_turned, valve_ball
-from cadplants.families.valves.pieces import BallInside, Clamps, StemTop
 from cadplants.families.valves.threaded import hex_end
 from cadplants.families.valves.valve import Valve
 from cadplants.family import Model
@@ -43,7 +42,7 @@ class Sanitary(_Ball, name="ball valve/sanitary clamp", sizes=sized(15, 100)):
     """A sanitary three-piece ball valve with clamp ends, ferrules of the pipe and their clamps; a lever or actuator."""
 
     square: bool = chance(0.5, "its middle is held between square plates, not round ones")
-    clamps: Clamps = nested(Clamps, "clamps at both ends")
+    clamps: ClampedEnds = nested(ClampedEnds, "clamps at both ends")
     top: StemTop = nested(StemTop, "neck of the stem")
     ball: BallInside = nested(BallInside, "ball and seats", when=lambda p: p.hollow)
     operator: Any = operator("lever", "lever", "vertical", "rack", "motor box")
@@ -62,10 +61,10 @@ class Sanitary(_Ball, name="ball valve/sanitary clamp", sizes=sized(15, 100)):
         bolt = [cylinder(0.004, -half - 0.006, half + 0.006, 8), hexagon(0.012, half + 0.002, half + 0.008)]
         bolts = around(merge(bolt), 4, (1.18 if len(plate) < 24 else 1.0) * big, np.pi / 4)
         up.add("bolt", about_x(bolts))
-        self.clamps.build(t, stub, 2 * x)
+        self.clamps.build(t, t.dn, stub, 2 * x)
         self.top.build(up, 1.1 * r, 1.3 * big + 0.01, r)
         if self.ball:
-            self.ball.build(up)
+            self.ball.build(up, t.dn)
         self.operator.build(up.at(0, 0, 1.3 * big + 0.014 + 0.2 * r))
         return self.done(t, 2 * x)
 
@@ -107,7 +106,7 @@ class TrueUnion(_Ball, name="ball valve/true union", sizes=sized(15, 100)):
             solid = one.solid(1.22 * big, *span(start, start + s * nut), 1.3 * r + 0.002)
             up.along("x").add("union", solid, of="valve", own=True)
         if self.ball:
-            self.ball.build(up)
+            self.ball.build(up, t.dn)
         up = up.at(0, 0, high)
         put_stem(up, -0.01, 0.012, 0.6 * tower)
         if self.by_hand:
@@ -209,7 +208,7 @@ class Block(_Ball, name="ball valve/block", sizes=sized(15, 50)):
         self.lever.build(up, 0.09 + 2.4 * r, half + 0.007)
         up.add("valve body", moved(cylinder(0.004, half, half + 0.012, 8), at(0.7 * half, 0.5 * half)))
         if self.ball:
-            self.ball.build(up)
+            self.ball.build(up, t.dn)
         return self.done(t, length)
 
 
