@@ -14,8 +14,7 @@ from cadplants.families.valves.actuation_hand import Handwheel, wheels
 from cadplants.families.valves.actuation_stroke import STROKES, Yoke, linear_of
 from cadplants.families.valves.base import HOLLOW, lying, sized
 from cadplants.families.valves.body import Packing, ended, lid_joint, neck_of, room
-from cadplants.families.valves.globe import globe_plug
-from cadplants.families.valves.pieces import GlobeBody
+from cadplants.families.valves.globe import GlobeBody, globe_plug
 from cadplants.families.valves.threaded import hex_end
 from cadplants.families.valves.valve import Valve, disc_flange
 from cadplants.family import Model
@@ -74,7 +73,9 @@ class Cage(_Control, name="control valve/cage", weight=2):
         collar, lid, bolts = lid_joint(self.joint, half, half, seat, plate, t.style)
         n, slim, top, up = t.n(throat, 16), 0.006 + 0.08 * r, seat + plate, t.at(length / 2)
         high = top + self.high * r + 0.015
-        t.add("valve body", self.body.solid(t, length, self.ends, seat, throat), moved(collar, at(length / 2)))
+        t.add(
+            "valve body", self.body.solid(t.dn, t.style, length, self.ends, seat, throat), moved(collar, at(length / 2))
+        )
         crown = cylinder(2.8 * slim, high - 0.004, high + 0.02, n)
         up.add("valve bonnet", lid, *self.neck.solids(throat, top, high, n), crown)
         up.extend([bolts])
@@ -203,7 +204,7 @@ class Heating(_Control, name="control valve/heating", sizes=sized(15, 100)):
         length = FACE_TO_FACE["globe"][t.dn] * 0.9 if flanged else 0.05 + 3.4 * r
         seat = max(room(t.dn) * 0.7, 1.8 * r + 0.012) if flanged else 1.9 * r + 0.01
         x, reach, n, half = length / 2, 0.5 * length, t.n(throat, 16), 0.018 + 0.35 * r
-        solids = [self.body.solid(t, length, self.ends, seat, throat)]
+        solids = [self.body.solid(t.dn, t.style, length, self.ends, seat, throat)]
         if self.mixing and flanged:
             solids.append(moved(disc_flange(t.dn, t.style, reach - 0.6 * r), at(x, 0, -reach)))
         elif self.mixing:
