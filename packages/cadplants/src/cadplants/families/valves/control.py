@@ -73,9 +73,8 @@ class Cage(_Control, name="control valve/cage", weight=2):
         collar, lid, bolts = lid_joint(self.joint, half, half, seat, plate, t.style)
         n, slim, top, up = t.n(throat, 16), 0.006 + 0.08 * r, seat + plate, t.at(length / 2)
         high = top + self.high * r + 0.015
-        t.add(
-            "valve body", self.body.solid(t.dn, t.style, length, self.ends, seat, throat), moved(collar, at(length / 2))
-        )
+        run = self.body.solid(t.dn, t.style, length, self.ends, seat, throat)
+        t.add("valve body", run, moved(collar, at(length / 2)))
         crown = cylinder(2.8 * slim, high - 0.004, high + 0.02, n)
         up.add("valve bonnet", lid, *self.neck.solids(throat, top, high, n), crown)
         up.extend([bolts])
