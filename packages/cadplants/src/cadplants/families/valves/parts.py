@@ -1,4 +1,4 @@
-"""What check, relief, reducing and small valves share: named parts, branches, bolted covers, threaded ends, springs."""
+"""What check, relief, reducing and small valves share: branches, bolted covers, threaded ends, springs."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ import numpy as np
 
 from cadgraph.model.scene import Floats
 from cadplants.builder.table import Table
+from cadplants.families.valves.drive import BODY
 from cadplants.families.valves.threaded import hex_end
 from cadplants.families.valves.valve import bolt_circle, disc_flange
 from cadplants.family import Part
@@ -19,53 +20,15 @@ from cadplants.standards import FLANGES, PIPES, SIZES
 from cadplants.transforms import at
 
 __all__ = [
-    "BIG",
-    "BODY",
-    "MID",
-    "SMALL",
-    "bend",
-    "body",
-    "bonnet",
-    "branch",
-    "cage",
-    "chain",
-    "cover",
-    "hub_radius",
-    "other",
-    "piece",
-    "screwed",
-    "spring",
-    "square",
-    "thread_nut",
-    "threaded_run",
-]
+    "BIG", "MID", "SMALL", "bend", "branch", "cage", "chain", "cover", "hub_radius", "screwed", "spring", "square",
+    "thread_nut", "threaded_run",
+]  # fmt: skip
 
-BODY = "valve body"
 SMALL = tuple(dn for dn in SIZES if dn <= 50)
 MID = tuple(dn for dn in SIZES if dn <= 200)
 BIG = tuple(dn for dn in SIZES if dn >= 40)
 
 _BACK = {"x": "-x", "-x": "x", "y": "-y", "-y": "y", "z": "-z", "-z": "z"}
-
-
-def piece(name: str, *solids: Solid, color: str = "trim", bundle: str = BODY) -> Part:
-    """Solids as one part of the valve."""
-    return Part(merge(list(solids)), name, color, bundle)
-
-
-def body(*solids: Solid) -> Part:
-    """Solids as one valve body."""
-    return piece("valve body", *solids, color="valve")
-
-
-def bonnet(*solids: Solid) -> Part:
-    """Solids as one valve bonnet."""
-    return piece("valve bonnet", *solids, color="valve")
-
-
-def other(group: str, name: str, color: str, *solids: Solid, own: bool = False) -> Part:
-    """A part of another group; one with the valve's mesh where the style makes it whole if it is its ``own``."""
-    return Part(merge(list(solids)), name, color, BODY if own else "", group)
 
 
 def branch(dn: int, style: ModelingStyle, reach: float, way: str, center: Sequence[float] = (0.0, 0.0, 0.0)) -> Solid:
@@ -98,8 +61,11 @@ def cover(
         shell = [(0.72 * radius * np.cos(a), low_hood + rise * np.sin(a)) for a in shares]
         top.append(turned([*shell, (0.1 * radius, seat + plate + hood)], n))
     bolts = bolt_circle(count, spread, thread, seat - plate, seat + plate)
-    fastening = Part(bolts, "bolt", "fastener", BODY, "Connection assembly", True)
-    return [body(low), bonnet(*top), fastening]
+    return [
+        Part(low, BODY, "valve", BODY),
+        Part(merge(top), "valve bonnet", "valve", BODY),
+        Part(bolts, "bolt", "fastener", BODY, "Connection assembly", True),
+    ]
 
 
 def screwed(
