@@ -119,7 +119,7 @@ def bend(points: Sequence[Sequence[float]], corner: float, steps: int = 4) -> Fl
     return np.array(apart)
 
 
-def chain(start: Sequence[float], end: Sequence[float], sag: float, wire: float) -> Solid:
+def chain(start: Sequence[float] | Floats, end: Sequence[float] | Floats, sag: float, wire: float) -> Solid:
     """A small chain hanging between two points, as links in turn [m]."""
     a, b = np.asarray(start, float), np.asarray(end, float)
     path = [a + (b - a) * t - np.array([0, 0, 4 * sag * t * (1 - t)]) for t in np.linspace(0, 1, 7)]

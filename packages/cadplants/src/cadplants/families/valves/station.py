@@ -293,7 +293,7 @@ class HoseValve(_Station, name="hose valve/standpipe"):
         mouth.along("-z").add("pipe cap", *cap, of="trim", own=True)
         if self.chained:
             spots = ((1.28 * r, 0, -2.8 * w, 1), (1.08 * w, 0, 0.1 * w, 1))
-            start, end = ([float(v) for v in (turn @ spot)[:3]] for spot in spots)
+            start, end = ((turn @ spot)[:3] for spot in spots)
             mid.add("pipe cap", chain(start, end, 0.03, 0.0018), of="trim", own=True)
         head = mid.at(0, 0, 1.2 * w)
         head.add("valve bonnet", hexagon(1.8 * w, -0.002, 0.5 * w), cylinder(0.5 * w, 0, 1.2 * w, n))
