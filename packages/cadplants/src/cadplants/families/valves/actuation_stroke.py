@@ -30,7 +30,6 @@ __all__ = [
     "linear",
     "linear_of",
     "screw_of",
-    "screwed_up",
     "yoke_arms",
 ]
 
@@ -89,7 +88,7 @@ class Yoke(Params):
 
 
 def _by_hand(p: Any) -> bool:
-    return p.top == "wheel" or p.radius < 0.08
+    return bool(p.top == "wheel" or p.radius < 0.08)
 
 
 class OutsideScrew(Params):
@@ -380,11 +379,4 @@ def linear(
     """A yoke with one of some linear actuators of ``kinds`` on a stem at ``x``, a bonnet's top on ``z`` [m]."""
     t = table_for(style)
     _linears(*kinds).draw(rng, {"radius": radius}).build(t.at(x, 0, z))
-    return t.parts
-
-
-def screwed_up(half: float, tall: float, wheel: float, slim: float, style: ModelingStyle, rng: Rng) -> list[Part]:
-    """An outside screw and yoke [m]."""
-    t = table_for(style)
-    OutsideScrew.draw(rng, {"radius": wheel}).build(t, half, tall, slim)
     return t.parts

@@ -26,7 +26,7 @@ from cadplants.valve_body import bore_of
 
 __all__ = [
     "Blade", "Packing", "TurnedBlade", "bolts_on", "chest", "ended", "lid_joint", "metal", "neck_of", "oval",
-    "packing", "packings", "part_turned", "plate_outline", "room", "trim", "turned_blade", "valve_ball", "wedge",
+    "packing", "packings", "part_turned", "plate_outline", "room", "trim", "valve_ball", "wedge",
 ]  # fmt: skip
 
 Rng = np.random.Generator
@@ -273,15 +273,3 @@ class TurnedBlade(Params):
     def build(self, t: Table, radius: float) -> None:
         """Puts it down, of a radius [m]."""
         t.spun("z", self.turn).bundled(BODY).add("valve disc", self.blade.solid(radius, t.style))
-
-
-def turned_blade(radius: float, x: float, style: ModelingStyle, rng: Rng) -> list[Part]:
-    """A butterfly's disc at ``x``, open, half open or shut [m]."""
-    t = table_for(style)
-    TurnedBlade.draw(rng).build(t.at(x), radius)
-    return t.parts
-
-
-def blade(radius: float, style: ModelingStyle, rng: Rng) -> Solid:
-    """A butterfly's disc across x at the origin [m]."""
-    return Blade.draw(rng).solid(radius, style)

@@ -234,7 +234,7 @@ class Drain(Valve, name="drain valve/hose tail", place="tap"):
             (self.lever or self.wing).build(t.at(0, 0, top + 0.8 * r))
         if self.capped:
             cap = moved(along("y", cylinder(1.25 * r, far - 0.3 * r, far + 1.2 * r, n)), pose)
-            end = (pose @ (0.0, far, 1.2 * r, 1.0))[:3]
+            end = tuple(map(float, (pose @ (0.0, far, 1.2 * r, 1.0))[:3]))
             t.add("valve bonnet", cap, chain((0, 1.5 * r, low + 2.4 * r), end, 1.6 * r, 0.0009))
         return t.model(kind="drain valve")
 

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from cadgraph.model.scene import Floats
 from cadplants.builder.device import families_of
 from cadplants.builder.params import Params, among, between, chance, nested, styled
 from cadplants.builder.table import Table, outline
@@ -157,7 +158,7 @@ class MonoFlange(Valve, name="butterfly valve/mono-flange", sizes=BIG):
     def build(self, t: Table) -> Model:
         radius, size, bore, count = self.radius, t.flange, t.pipe.bore, t.flange.n_bolts
         length, n = FACE_TO_FACE["butterfly"][self.dn], t.n(size.outer / 2, 16)
-        holes = (circle(1.1 * bore, n),)
+        holes: tuple[Floats, ...] = (circle(1.1 * bore, n),)
         if t.style.holes:
             a, r = np.pi / count + np.arange(count) * 2 * np.pi / count, size.circle / 2
             holes += tuple(circle(0.55 * size.bolt, 8, (r * np.cos(k), r * np.sin(k))) for k in a)
