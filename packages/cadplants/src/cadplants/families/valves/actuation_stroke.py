@@ -3,353 +3,380 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cache
+from typing import Any
 
 import numpy as np
 
-from cadplants.families.valves.actuation import quarter_turn
-from cadplants.families.valves.actuation_base import bolted, hand_wheel, shaft
-from cadplants.families.valves.actuation_hand import slab
-from cadplants.families.valves.drive import BODY
-from cadplants.family import Part, placed
+from cadplants.builder.params import Params, among, between, chance, given, nested, weighted
+from cadplants.builder.table import Table, outline
+from cadplants.families.valves.actuation import OPERATORS, operator
+from cadplants.families.valves.actuation_base import STEMS, put_stem
+from cadplants.families.valves.actuation_hand import Handwheel, scaled, slab
+from cadplants.families.valves.drive import BODY, driven, table_for
+from cadplants.family import Part
 from cadplants.mesh_ops import Solid, merge, moved, sweep
 from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle
 from cadplants.primitives import along, around, box, cylinder, dome, hexagon, ring, rod, rope, turned
 from cadplants.transforms import at, spun
 
-__all__ = ["LINEAR", "linear", "screwed_up", "yoke_arms"]
+__all__ = [
+    "LINEAR",
+    "STROKES",
+    "Linear",
+    "OutsideScrew",
+    "Yoke",
+    "linear",
+    "linear_of",
+    "screw_of",
+    "yoke_arms",
+]
 
 Rng = np.random.Generator
-Maker = Callable[[float, float, ModelingStyle, Rng], list[Part]]
+_BOTH = (-1, 1)
+_ABOUT_STEM = "form of the stem"
+_YOKES = ("arched", "waisted", "pillars", "window frame", "flat bars", "slotted tube")
+
+
+class Yoke(Params):
+    """A yoke: arched, straight or waisted arms, pillars, a window frame, a slotted tube."""
+
+    form: str = among(_YOKES, "how it is made")
+    crown: float = between(0.45, 0.8, "radius of its top / of its foot")
+    wide: float = between(0.18, 0.35, "half an arm's width / radius of its foot", when=lambda p: p.form in _YOKES[:2])
+    thick: float = between(0.1, 0.2, "half an arm's thickness / radius", when=lambda p: p.form in _YOKES[:2])
+    waist: float = between(0.55, 0.8, "of a waisted one / radius of its foot", when=lambda p: p.form == "waisted")
+    count: int = among((2, 3, 4), "pillars", when=lambda p: p.form == "pillars", otherwise=0)
+
+    def build(self, t: Table, half: float, tall: float) -> None:
+        """Puts it down, from z = 0 to a height, its foot of a radius [m]."""
+        n, plate, crown = t.n(half, 12), max(0.006, 0.10 * half), self.crown * half
+        top, foot = cylinder(crown, tall - 1.6 * plate, tall, n), cylinder(half, 0.0, plate, n)
+        if self.form in ("arched", "waisted"):
+            wide, thick = self.wide * half, self.thick * half
+            bulge = half * (1.0 if self.form == "arched" else self.waist)
+            side = outline(0.75 * half, 0.5 * plate, bulge, 0.3 * tall, bulge, 0.65 * tall)
+            path = np.array([(0, y, z) for y, z in (*side, (0.6 * crown, tall - 0.8 * plate))])
+            section = np.array([[-wide, -thick], [wide, -thick], [wide, thick], [-wide, thick]])
+            arm = sweep(path, section, up=(1.0, 0.0, 0.0))
+            solids = [arm, moved(arm, spun("z", np.pi)), top, foot]
+        elif self.form == "pillars":
+            pillar = [cylinder(0.09 * half + 0.002, 0.0, tall + plate, 10)]
+            pillar.append(hexagon(0.3 * half + 0.006, tall, tall + plate))
+            solids = [around(one, self.count, 0.8 * half, np.pi / 2) for one in pillar]
+            solids += [cylinder(half, tall - 1.6 * plate, tall, n), foot]
+        elif self.form == "window frame":
+            edge = np.array([(-1, 0), (1, 0), (0.75, 1), (-0.75, 1)]) * (half, tall)
+            window = np.array([(-0.7, 0.16), (0.7, 0.16), (0.5, 0.86), (-0.5, 0.86)]) * (half, tall)
+            deep = 0.22 * half + 0.003
+            frame = moved(slab(edge, -deep, deep, (window,)), spun("z", np.pi / 2) @ spun("x", np.pi / 2))
+            solids = [frame, foot, top]
+        elif self.form == "flat bars":
+            leg = (0.08 * half + 0.004, 0.5 * half, tall)
+            solids = [moved(box(leg, (s * 0.72 * half, 0, tall / 2)), spun("z", np.pi / 2)) for s in _BOTH]
+            solids.append(box((0.6 * half, 1.6 * half, 1.5 * plate), (0, 0, tall - 0.75 * plate)))
+            solids.append(box((0.9 * half, 1.7 * half, plate), (0, 0, plate / 2)))
+        else:
+            solids = []
+            for s in _BOTH:
+                a = np.linspace(-0.8, 0.8, 7) + s * np.pi / 2
+                arc = np.column_stack([np.cos(a), np.sin(a)]) * half
+                solids.append(slab(np.vstack([0.85 * arc, 0.7 * arc[::-1]]), 0.5 * plate, tall - plate))
+            solids += [cylinder(0.88 * half, tall - 1.6 * plate, tall, n), foot]
+        t.add("yoke", *solids)
+
+
+def _by_hand(p: Any) -> bool:
+    return bool(p.top == "wheel" or p.radius < 0.08)
+
+
+class OutsideScrew(Params):
+    """An outside screw and yoke: yoke, rising stem, yoke nut, and a wheel, a gear or a motor on top."""
+
+    radius: float = given(0.2, "of its handwheel", "m")
+    yoke: Yoke = nested(Yoke, "yoke")
+    top: str = weighted("what turns it; small ones have a wheel", wheel=0.72, bevel=0.15, motor=0.13)
+    lift: float = between(0.0, 1.0, "how far it is open", when=_by_hand)
+    stem: str = among(STEMS, _ABOUT_STEM)
+    wheel: Handwheel = nested(Handwheel, "handwheel", when=_by_hand)
+    cover: bool = chance(
+        0.3, "a pipe covers the rising stem", when=lambda p: _by_hand(p) and 0.8 * p.lift > 0.3, otherwise=False
+    )
+    gear: Any = operator("bevel", radius=lambda p: 0.6 * p.radius, when=lambda p: not _by_hand(p) and p.top == "bevel")
+    motor: Any = operator(
+        "multi-turn", radius=lambda p: 0.6 * p.radius, when=lambda p: not _by_hand(p) and p.top == "motor"
+    )
+
+    def build(self, t: Table, half: float, tall: float, slim: float) -> None:
+        """Puts it down: half the yoke's width, its height, the stem's radius [m]."""
+        t = t.bundled(BODY)
+        self.yoke.build(t, half, tall)
+        nut = [cylinder(2.2 * slim, tall - 0.01, tall + 1.5 * slim, 12), hexagon(3.6 * slim, tall, tall + slim)]
+        t.add("nut", *nut, of="trim", own=True, fine=False)
+        if not _by_hand(self):
+            put_stem(t, -0.01, tall + 2 * slim, slim, self.stem)
+            (self.gear or self.motor).build(t.at(0, 0, tall + 0.5 * slim))
+            return
+        lift = self.lift * 0.8 * tall
+        put_stem(t, -0.01, tall + 3 * slim + lift + 0.02, slim, self.stem)
+        self.wheel.build(t, self.radius, tall + 1.2 * slim)
+        if self.cover:
+            t.add("valve stem", cylinder(1.8 * slim, tall + 3 * slim + 0.01, tall + 5 * slim + lift + 0.04, 12))
+
+
+class _Diaphragm(Params):
+    """A spring diaphragm: dished pans, flat pans, a deep spring case above, or two storeys; with a vent and an eye."""
+
+    kind = "diaphragm"
+
+    head: float = between(0.8, 1.4, "radius of its diaphragm / what the pipe asks for")
+    form: str = among(("dished", "flat", "deep", "two storeys"), "form of its pans")
+    vented: bool = chance(0.5, "a vent on top")
+    wheeled: bool = chance(0.2, "has a handwheel on top")
+    stem: str = among(STEMS, _ABOUT_STEM, when=lambda p: p.wheeled)
+    wheel: Handwheel = nested(Handwheel, "handwheel", when=lambda p: p.wheeled)
+
+    def build(self, t: Table, radius: float, tall: float) -> None:
+        """Puts it down on a height, for a pipe of a radius [m]."""
+        head = self.head * (0.08 + 1.2 * radius)
+        n, lip, t = t.n(head, 16), 0.012 + 0.03 * head, t.at(0, 0, tall).bundled("actuator")
+        rim, seam = lip / head, 0.18 * head + lip
+        lower = scaled(head, 0.25, 0, 0.6, 0.06, 0.86, 0.18, 1, 0.18, 1, 0.18 + rim)
+        if self.form == "flat":
+            low = 0.2 * head - 0.01
+            lower = [*outline(0.85 * head, 0, 0.88 * head, low, head, low), (head, seam)]
+        upper = {
+            "dished": (0.86, rim, 0.6, 0.2, 0.2, 0.26),
+            "flat": (0.88, rim, 0.86, 0.35, 0.8, 0.4),
+            "deep": (0.8, rim + 0.05, 0.45, 0.3, 0.42, 1.1, 0.3, 1.25, 0.1, 1.28),
+            "two storeys": (0.9, 2 * rim, 0.9, 0.5, 0.8, 0.62, 0.1, 0.66),
+        }[self.form]
+        high = seam + upper[-1] * head
+        case = scaled(head, 1, 0, 1, rim, *upper)
+        solids = [turned(lower, n), moved(turned(case, n), at(0, 0, seam + 0.001))]
+        if self.vented:
+            solids.append(cylinder(0.04 * head + 0.004, high - 0.01, high + 0.05 * head, 8))
+            solids.append(hexagon(0.1 * head + 0.01, high - 0.003, high + 0.03 * head))
+        t.add("actuator", *solids, of="valve")
+        low, up = 0.18 * head, seam + lip + 0.001
+        bolt = [cylinder(0.005, low, up, 6), hexagon(0.014, up, up + 0.006), hexagon(0.014, low - 0.006, low)]
+        t.add("bolt", around(merge(bolt), int(np.clip(60 * head, 6, 18)), 0.93 * head))
+        if self.wheeled:
+            put_stem(t, high - 0.01, high + 0.25 * head, 0.05 * head, self.stem)
+            self.wheel.build(t, 0.5 * head, high + 0.15 * head)
+
+
+class _Piston(Params):
+    """A piston cylinder: end plates held by tie rods, or a smooth barrel with rolled covers, ports on one side."""
+
+    kind = "piston"
+
+    half: float = between(0.8, 1.2, "radius of its cylinder / what the pipe asks for")
+    long: float = between(1.6, 3.0, "length of its cylinder / what the pipe asks for")
+    form: str = among(("tie rods", "rolled", "domed"), "how it is made")
+    square: bool = chance(0.6, "its end plates are square, not round", when=lambda p: p.form == "tie rods")
+    eyed: bool = chance(0.5, "a cap on top shows the position")
+
+    def build(self, t: Table, radius: float, tall: float) -> None:
+        """Puts it down on a height, for a pipe of a radius [m]."""
+        half, long, t = (
+            self.half * (0.03 + 0.7 * radius),
+            self.long * (0.03 + 0.7 * radius),
+            t.at(0, 0, tall).bundled("actuator"),
+        )
+        n = t.n(half, 16)
+        if self.form == "tie rods":
+            plate = rounded_rectangle(2.3 * half, 2.3 * half, 0.2 * half, 2) if self.square else circle(1.25 * half, n)
+            solids = [slab(plate, z, z + 0.2 * half) for z in (0.0, long)]
+            tie = [cylinder(0.07 * half + 0.001, -0.02 * half, long + 0.3 * half, 8)]
+            tie.append(hexagon(0.24 * half, long + 0.2 * half, long + 0.34 * half))
+            solids.append(cylinder(half, 0.1 * half, long + 0.1 * half, n))
+            solids.append(around(merge(tie), 4, (1.372 if self.square else 1.12) * half, np.pi / 4))
+            high = long + 0.2 * half
+        elif self.form == "rolled":
+            high = long + 0.3 * half
+            side = outline(
+                0.8 * half, 0, half, 0.1 * half, half, long, 0.85 * half, long + 0.2 * half, 0.3 * half, high
+            )
+            solids = [turned(side, n)]
+            solids += [ring(0.9 * half, 1.08 * half, z, z + 0.12 * half, n) for z in (0.2 * half, long - 0.2 * half)]
+        else:
+            side = scaled(half, 0.6, 0, 0.95, 0.25, 1, 0.25)
+            side += outline(half, 0.8 * long, 1.06 * half, 0.82 * long, 1.06 * half, 0.95 * long)
+            solids = [turned(side, n), dome(1.0 * half, 0.45 * half, 0.95 * long, n)]
+            high = 0.95 * long + 0.44 * half
+        port = hexagon(0.022, 0.7 * half, 1.12 * half + 0.012)
+        solids += [along("y", port, 0, 0, z) for z in (0.3 * long, 0.8 * long)]
+        t.add("actuator", *solids, of="clamp" if self.form == "rolled" else "motor")
+        if self.eyed:
+            cap = dome(0.12 * half, 0.12 * half, high + 0.3 * half, 12)
+            t.add("position indicator", cylinder(0.13 * half, high - 0.01, high + 0.3 * half, 12), cap, of="safety")
+
+
+class _Ram(Params):
+    """A hydraulic cylinder: a thick tube between square heads, elbowed oil ports and their pipe."""
+
+    kind = "ram"
+
+    long: float = between(3.0, 5.0, "length of its cylinder / half a head's width")
+
+    def build(self, t: Table, radius: float, tall: float) -> None:
+        """Puts it down on a height, for a pipe of a radius [m]."""
+        half = 0.025 + 0.4 * radius
+        long, low, out = self.long * half, 0.3 * half, 1.6 * half
+        solids = [box((2.2 * half, 2.2 * half, 0.6 * half), (0, 0, z)) for z in (low, long)]
+        solids.append(cylinder(0.9 * half, 0.5 * half, long, t.n(half, 16)))
+        solids.append(around(cylinder(0.1 * half, 0.0, long + 0.45 * half, 8), 4, 1.3 * half, np.pi / 4))
+        solids.append(rope([(0, half, low), (0, out, low), (0, out, long), (0, half, long)], 0.08 * half + 0.002, 8))
+        t.at(0, 0, tall).bundled("actuator").add("actuator", *solids)
+
+
+class _Motor(Params):
+    """A linear electric actuator, as on heating valves: a moulded case, round or boxy, a cable gland, a knob."""
+
+    kind = "linear electric"
+
+    high: float = between(1.6, 3.0, "height / half its width")
+    boxy: bool = chance(0.5, "its case is a box, not round")
+    knob: bool = chance(0.5, "a knob for the hand")
+
+    def build(self, t: Table, radius: float, tall: float) -> None:
+        """Puts it down on a height, for a pipe of a radius [m]."""
+        half, n, t = 0.035 + 0.4 * radius, t.n(0.05, 16), t.at(0, 0, tall).bundled("actuator")
+        high = self.high * half
+        if self.boxy:
+            solids = [slab(rounded_rectangle(2.4 * half, 1.7 * half, 0.4 * half, 3), 0.0, high)]
+            solids.append(slab(rounded_rectangle(2.2 * half, 1.5 * half, 0.4 * half, 3), high, high + 0.25 * half))
+        else:
+            side = outline(0.6 * half, 0, half, 0.4 * half, half, 0.8 * high, 0.8 * half, high)
+            solids = [turned(side, n), dome(0.8 * half, 0.3 * half, high, n)]
+        solids.append(along("x", hexagon(0.022, 0.8 * half, 1.2 * half + 0.022), 0, 0, 0.35 * high))
+        t.add("actuator", *solids, of="electrical")
+        if self.knob:
+            knob = along("-y", cylinder(0.25 * half, 0.75 * half, 1.15 * half, 12), 0, 0, 0.7 * high)
+            t.add("position indicator", knob, of="safety")
+
+
+class _Turning(Params):
+    """A multi-turn or electrohydraulic actuator, or a bevel gear."""
+
+    kind = "turning"
+
+    make: str = among(("multi-turn", "electrohydraulic", "bevel"), "what it is")
+    form: Any = nested(lambda s, p: OPERATORS[p.make].draw(s), "its proportions")
+
+    def build(self, t: Table, radius: float, tall: float) -> None:
+        """Puts it down on a height, for a pipe of a radius [m]."""
+        self.form.build(t.at(0, 0, tall), max(radius, 0.024))
+
+
+STROKES: dict[str, Any] = {
+    "diaphragm": _Diaphragm, "piston": _Piston, "ram": _Ram, "motor": _Motor, "turning": _Turning,
+}  # fmt: skip
+"""Actuators that lift a stem, by their make; each is built on a table for a pipe's radius, on a height."""
+
+
+class Linear(Params):
+    """A yoke with one of some linear actuators on it, maybe a positioner and a travel scale."""
+
+    radius: float = given(0.05, "of the pipe, which it is scaled by", "m")
+    make: str = among(tuple(STROKES), "what lifts the stem")
+    tall: float = between(0.8, 1.3, "height of its yoke / what the pipe asks for")
+    yoke: Yoke = nested(Yoke, "yoke")
+    form: Any = nested(lambda s, p: STROKES[p.make].draw(s), "proportions of what lifts the stem")
+    positioned: bool = chance(0.55, "has a positioner", when=lambda p: p.make in ("diaphragm", "piston"))
+    boxy: bool = chance(0.5, "its positioner is a box, not round", when=lambda p: p.positioned)
+    scaled: bool = chance(0.6, "a travel scale on an arm of its yoke")
+    turn: float = among((0.0, np.pi / 2, np.pi), "which way it looks", "rad")
+
+    def build(self, t: Table) -> None:
+        """Puts it down on a bonnet's top on z = 0."""
+        radius, t = self.radius, t.spun("z", self.turn).bundled("actuator")
+        half, tall, slim = 0.025 + 0.55 * radius, self.tall * (0.07 + 1.3 * radius), 0.004 + 0.07 * radius
+        body, middle = t.bundled(BODY), 0.5 * tall
+        self.yoke.build(t, half, tall)
+        put_stem(t, -0.01, tall + 0.01, slim)
+        coupling = box((3.0 * slim, 5.0 * slim, 4 * slim), (0, 0, middle))
+        body.add("valve stem", coupling, hexagon(3.5 * slim, middle - 3.5 * slim, middle - 2 * slim))
+        self.form.build(t, radius, tall)
+        if self.positioned:
+            self._positioner(t, half, tall)
+        if self.scaled:  # with its pointer on the stem
+            lines = [box((0.003, 0.022, 0.0015), (0.004, 0.6 * half, z)) for z in np.linspace(0.35, 0.65, 6) * tall]
+            plate = box((0.002, 0.025, 0.4 * tall), (0.003, 0.6 * half, middle))
+            pointer = box((0.004, 0.6 * half, 0.004), (0.006, 0.3 * half, middle))
+            body.add("position indicator", plate, pointer, *lines, of="dial")
+
+    def _positioner(self, t: Table, half: float, tall: float) -> None:
+        """Puts down a positioner on a bracket beside the yoke, with its feedback arm and gauges' pads."""
+        y, z = half + 0.06, 0.55 * tall
+        plate = [box((0.06, 0.004, 0.08), (0, y - 0.004, z)), box((0.004, 0.08, 0.05), (0.028, y - 0.045, z))]
+        t.add("bracket", *plate, own=True)
+        case: list[Solid]
+        if self.boxy:
+            case = [box((0.12, 0.08, 0.11), (0, y + 0.038, z)), box((0.10, 0.02, 0.09), (0, y + 0.085, z))]
+        else:
+            case = [along("y", turned(outline(0.055, 0, 0.06, 0.02, 0.06, 0.075, 0.045, 0.09), 20), 0, y - 0.003, z)]
+        arm = rod((0, 0.01, z + 0.01), (0, y, z + 0.01), 0.004, 6)
+        way = [(-0.04, y + 0.03, z + 0.04), (-0.04, y + 0.03, tall + 0.02), (-0.02, 0.5 * half, tall + 0.03)]
+        t.add("actuator", *case, arm, rope(way, 0.003, 6), of="electrical")
+
+
+@cache
+def _linears(*makes: str) -> type[Linear]:
+    class Linears(Linear):
+        """Linear actuators of some makes."""
+
+        make: str = among(makes or tuple(STROKES), "what lifts the stem")
+
+    return Linears
+
+
+def linear_of(
+    *makes: str, radius: Callable[[Any], float] | None = None, when: Callable[[Any], bool] | None = None
+) -> Any:
+    """A field for what lifts a stem.
+
+    Args:
+        makes: of ``STROKES`` to draw from; all by default.
+        radius: that it is scaled by, from the fields before [m]; the pipe's if None.
+        when: whether there is one, by the fields before.
+    """
+    return driven(_linears(*makes), "what lifts its stem", radius, when)
+
+
+def screw_of(radius: Callable[[Any], float], when: Callable[[Any], bool] | None = None) -> Any:
+    """A field for an outside screw and yoke whose handwheel has a radius, by the fields before [m]."""
+    return driven(OutsideScrew, "outside screw and yoke", radius, when)
+
+
+# --- the same as finished parts ---
 
 
 def yoke_arms(half: float, tall: float, style: ModelingStyle, rng: Rng, bundle: str = BODY) -> Part:
-    """A yoke from z = 0 to ``tall``: arched, straight or waisted arms, pillars, a window frame, a slotted tube [m]."""
-    n, kind = max(12, style.round(half)), int(rng.integers(6))
-    plate = max(0.006, 0.10 * half)
-    crown = float(rng.uniform(0.45, 0.8)) * half
-    top = cylinder(crown, tall - 1.6 * plate, tall, n)
-    foot = cylinder(half, 0.0, plate, n)
-    if kind <= 1:
-        wide, thick = float(rng.uniform(0.18, 0.35)) * half, float(rng.uniform(0.1, 0.2)) * half
-        bulge = half * (1.0 if kind == 0 else float(rng.uniform(0.55, 0.8)))
-        path = np.array(
-            [
-                (0, 0.75 * half, 0.5 * plate),
-                (0, bulge, 0.3 * tall),
-                (0, bulge, 0.65 * tall),
-                (0, 0.6 * crown, tall - 0.8 * plate),
-            ]
-        )
-        arm = sweep(
-            path, np.array([[-wide, -thick], [wide, -thick], [wide, thick], [-wide, thick]]), up=(1.0, 0.0, 0.0)
-        )
-        solids = [arm, moved(arm, spun("z", np.pi)), top, foot]
-    elif kind == 2:
-        count = int(rng.choice([2, 3, 4]))
-        posts = around(cylinder(0.09 * half + 0.002, 0.0, tall + plate, 10), count, 0.8 * half, np.pi / 2)
-        nuts = around(hexagon(0.3 * half + 0.006, tall, tall + plate), count, 0.8 * half, np.pi / 2)
-        solids = [posts, nuts, cylinder(half, tall - 1.6 * plate, tall, n), foot]
-    elif kind == 3:
-        outline = np.array([(-half, 0.0), (half, 0.0), (0.75 * half, tall), (-0.75 * half, tall)])
-        window = np.array(
-            [
-                (-0.7 * half, 0.16 * tall),
-                (0.7 * half, 0.16 * tall),
-                (0.5 * half, 0.86 * tall),
-                (-0.5 * half, 0.86 * tall),
-            ]
-        )
-        deep = 0.22 * half + 0.003
-        frame = moved(slab(outline, -deep, deep, (window,)), spun("z", np.pi / 2) @ spun("x", np.pi / 2))
-        solids = [frame, foot, top]
-    elif kind == 4:
-        legs = [box((0.08 * half + 0.004, 0.5 * half, tall), (s * 0.72 * half, 0, tall / 2)) for s in (-1, 1)]
-        legs = [moved(leg, spun("z", np.pi / 2)) for leg in legs]
-        solids = [
-            *legs,
-            box((0.6 * half, 1.6 * half, 1.5 * plate), (0, 0, tall - 0.75 * plate)),
-            box((0.9 * half, 1.7 * half, plate), (0, 0, plate / 2)),
-        ]
-    else:
-        turns = [np.linspace(-0.8, 0.8, 7) + s * np.pi / 2 for s in (-1, 1)]
-        shells = [
-            slab(
-                np.array(
-                    [(r * np.cos(a), r * np.sin(a)) for r, t in ((0.85 * half, w), (0.7 * half, w[::-1])) for a in t]
-                ),
-                0.5 * plate,
-                tall - plate,
-            )
-            for w in turns
-        ]
-        solids = [*shells, cylinder(0.88 * half, tall - 1.6 * plate, tall, n), foot]
-    return Part(merge(solids), "yoke", "valve", bundle)
+    """A yoke from z = 0 to ``tall`` [m]."""
+    t = table_for(style)
+    Yoke.draw(rng).build(t.bundled(bundle), half, tall)
+    return t.parts[0]
 
 
-def screwed_up(half: float, tall: float, wheel: float, slim: float, style: ModelingStyle, rng: Rng) -> list[Part]:
-    """An outside screw and yoke: yoke, rising stem, yoke nut, and a wheel, a gear or a motor on top [m]."""
-    nut = merge([cylinder(2.2 * slim, tall - 0.01, tall + 1.5 * slim, 12), hexagon(3.6 * slim, tall, tall + slim)])
-    parts = [yoke_arms(half, tall, style, rng), Part(nut, "nut", "trim", BODY, "Connection assembly")]
-    kind = rng.random()
-    if kind < 0.72 or wheel < 0.08:
-        open_ = float(rng.uniform(0.0, 1.0)) * 0.8 * tall
-        parts += [
-            shaft(-0.01, tall + 3 * slim + open_ + 0.02, slim, style, rng),
-            hand_wheel(wheel, tall + 1.2 * slim, style, rng),
-        ]
-        if open_ > 0.3 * tall and rng.random() < 0.3:
-            parts.append(
-                Part(
-                    cylinder(1.8 * slim, tall + 3 * slim + 0.01, tall + 5 * slim + open_ + 0.04, 12),
-                    "valve stem",
-                    "trim",
-                    BODY,
-                )
-            )
-        return parts
-    parts.append(shaft(-0.01, tall + 2 * slim, slim, style, rng))
-    driver = ("bevel",) if kind < 0.87 else ("multi-turn",)
-    return parts + quarter_turn(0.0, tall + 0.5 * slim, 0.6 * wheel, style, rng, driver)
+def _stroke(make: str, radius: float, tall: float, style: ModelingStyle, rng: Rng) -> list[Part]:
+    t = table_for(style)
+    STROKES[make].draw(rng).build(t, radius, tall)
+    return t.parts
 
 
-def _rim_bolts(head: float, low: float, high: float, rng: Rng) -> Part:
-    count = int(np.clip(60 * head, 6, 18))
-    one = merge([cylinder(0.005, low, high, 6), hexagon(0.014, high, high + 0.006), hexagon(0.014, low - 0.006, low)])
-    return bolted(around(one, count, 0.93 * head), "actuator")
-
-
-def _diaphragm(radius: float, tall: float, style: ModelingStyle, rng: Rng) -> list[Part]:
-    """A spring diaphragm: dished pans, flat pans, a deep spring case above, or two storeys; with a vent and an eye."""
-    head = float(rng.uniform(0.8, 1.4)) * (0.08 + 1.2 * radius)
-    n, kind = max(16, style.round(head)), int(rng.integers(4))
-    lip = 0.012 + 0.03 * head
-    lower = [
-        (0.25 * head, 0.0),
-        (0.6 * head, 0.06 * head),
-        (0.86 * head, 0.18 * head),
-        (head, 0.18 * head),
-        (head, 0.18 * head + lip),
-    ]
-    if kind == 0:
-        upper = [(head, 0.0), (head, lip), (0.86 * head, lip), (0.6 * head, 0.2 * head), (0.2 * head, 0.26 * head)]
-    elif kind == 1:
-        lower = [
-            (0.85 * head, 0.0),
-            (0.88 * head, 0.2 * head - 0.01),
-            (head, 0.2 * head - 0.01),
-            (head, 0.18 * head + lip),
-        ]
-        upper = [(head, 0.0), (head, lip), (0.88 * head, lip), (0.86 * head, 0.35 * head), (0.8 * head, 0.4 * head)]
-    elif kind == 2:
-        upper = [
-            (head, 0.0),
-            (head, lip),
-            (0.8 * head, lip + 0.05 * head),
-            (0.45 * head, 0.3 * head),
-            (0.42 * head, 1.1 * head),
-            (0.3 * head, 1.25 * head),
-            (0.1 * head, 1.28 * head),
-        ]
-    else:
-        upper = [
-            (head, 0.0),
-            (head, lip),
-            (0.9 * head, 2 * lip),
-            (0.9 * head, 0.5 * head),
-            (0.8 * head, 0.62 * head),
-            (0.1 * head, 0.66 * head),
-        ]
-    seam = 0.18 * head + lip
-    pans = [turned(lower, n), turned([(r, z + seam + 0.001) for r, z in upper], n)]
-    high = seam + upper[-1][1]
-    if rng.random() < 0.5:
-        pans.append(
-            merge(
-                [
-                    cylinder(0.04 * head + 0.004, high - 0.01, high + 0.05 * head, 8),
-                    hexagon(0.1 * head + 0.01, high - 0.003, high + 0.03 * head),
-                ]
-            )
-        )
-    parts = [Part(merge(pans), "actuator", "valve", "actuator"), _rim_bolts(head, 0.18 * head, seam + lip + 0.001, rng)]
-    if rng.random() < 0.2:
-        parts += [
-            shaft(high - 0.01, high + 0.25 * head, 0.05 * head, style, rng),
-            hand_wheel(0.5 * head, high + 0.15 * head, style, rng),
-        ]
-    return placed(parts, at(0, 0, tall))
-
-
-def _piston(radius: float, tall: float, style: ModelingStyle, rng: Rng) -> list[Part]:
-    """A piston cylinder: end plates held by tie rods, or a smooth barrel with rolled covers, ports on one side."""
-    half, long = (
-        float(rng.uniform(0.8, 1.2)) * (0.03 + 0.7 * radius),
-        float(rng.uniform(1.6, 3.0)) * (0.03 + 0.7 * radius),
-    )
-    n = max(16, style.round(half))
-    kind = int(rng.integers(3))
-    if kind == 0:
-        plate = (
-            rounded_rectangle(2.3 * half, 2.3 * half, 0.2 * half, 2) if rng.random() < 0.6 else circle(1.25 * half, n)
-        )
-        solids = [slab(plate, z, z + 0.2 * half) for z in (0.0, long)]
-        rods = cylinder(0.07 * half + 0.001, -0.02 * half, long + 0.3 * half, 8)
-        nuts = hexagon(0.24 * half, long + 0.2 * half, long + 0.34 * half)
-        solids += [
-            cylinder(half, 0.1 * half, long + 0.1 * half, n),
-            around(merge([rods, nuts]), 4, 1.4 * half * 0.98 if len(plate) < 14 else 1.12 * half, np.pi / 4),
-        ]
-        high = long + 0.2 * half
-    elif kind == 1:
-        solids = [
-            turned(
-                [
-                    (0.8 * half, 0.0),
-                    (half, 0.1 * half),
-                    (half, long),
-                    (0.85 * half, long + 0.2 * half),
-                    (0.3 * half, long + 0.3 * half),
-                ],
-                n,
-            )
-        ]
-        solids += [ring(0.9 * half, 1.08 * half, z, z + 0.12 * half, n) for z in (0.2 * half, long - 0.2 * half)]
-        high = long + 0.3 * half
-    else:
-        solids = [
-            turned(
-                [
-                    (0.6 * half, 0.0),
-                    (0.95 * half, 0.25 * half),
-                    (half, 0.25 * half),
-                    (half, 0.8 * long),
-                    (1.06 * half, 0.82 * long),
-                    (1.06 * half, 0.95 * long),
-                ],
-                n,
-            ),
-            dome(1.0 * half, 0.45 * half, 0.95 * long, n),
-        ]
-        high = 0.95 * long + 0.44 * half
-    solids += [along("y", hexagon(0.022, 0.7 * half, 1.12 * half + 0.012), 0, 0, z) for z in (0.3 * long, 0.8 * long)]
-    parts = [Part(merge(solids), "actuator", "clamp" if kind == 1 else "motor", "actuator")]
-    if rng.random() < 0.5:
-        eye = merge(
-            [
-                cylinder(0.13 * half, high - 0.01, high + 0.3 * half, 12),
-                dome(0.12 * half, 0.12 * half, high + 0.3 * half, 12),
-            ]
-        )
-        parts.append(Part(eye, "position indicator", "safety", "actuator"))
-    return placed(parts, at(0, 0, tall))
-
-
-def _ram(radius: float, tall: float, style: ModelingStyle, rng: Rng) -> list[Part]:
-    """A hydraulic cylinder: a thick tube between square heads, elbowed oil ports and their pipe."""
-    half, long = 0.025 + 0.4 * radius, float(rng.uniform(3.0, 5.0)) * (0.025 + 0.4 * radius)
-    n = max(16, style.round(half))
-    heads = [box((2.2 * half, 2.2 * half, 0.6 * half), (0, 0, z)) for z in (0.3 * half, long)]
-    tube_ = cylinder(0.9 * half, 0.5 * half, long, n)
-    ties = around(cylinder(0.1 * half, 0.0, long + 0.45 * half, 8), 4, 1.3 * half, np.pi / 4)
-    pipe = rope(
-        [(0, 1.0 * half, 0.3 * half), (0, 1.6 * half, 0.3 * half), (0, 1.6 * half, long), (0, 1.0 * half, long)],
-        0.08 * half + 0.002,
-        8,
-    )
-    return placed([Part(merge([*heads, tube_, ties, pipe]), "actuator", "motor", "actuator")], at(0, 0, tall))
-
-
-def _motor(radius: float, tall: float, style: ModelingStyle, rng: Rng) -> list[Part]:
-    """A linear electric actuator, as on heating valves: a moulded case, round or boxy, a cable gland, a knob."""
-    half, n = 0.035 + 0.4 * radius, max(16, style.round(0.05))
-    high = float(rng.uniform(1.6, 3.0)) * half
-    if rng.random() < 0.5:
-        case = slab(rounded_rectangle(2.4 * half, 1.7 * half, 0.4 * half, 3), 0.0, high)
-        lid = slab(rounded_rectangle(2.2 * half, 1.5 * half, 0.4 * half, 3), high, high + 0.25 * half)
-    else:
-        case = turned([(0.6 * half, 0.0), (half, 0.4 * half), (half, 0.8 * high), (0.8 * half, high)], n)
-        lid = dome(0.8 * half, 0.3 * half, high, n)
-    gland = along("x", hexagon(0.022, 0.8 * half, 1.2 * half + 0.022), 0, 0, 0.35 * high)
-    parts = [Part(merge([case, lid, gland]), "actuator", "electrical", "actuator")]
-    if rng.random() < 0.5:
-        parts.append(
-            Part(
-                along("-y", cylinder(0.25 * half, 0.75 * half, 1.15 * half, 12), 0, 0, 0.7 * high),
-                "position indicator",
-                "safety",
-                "actuator",
-            )
-        )
-    return placed(parts, at(0, 0, tall))
-
-
-def _turning(radius: float, tall: float, style: ModelingStyle, rng: Rng) -> list[Part]:
-    return quarter_turn(0.0, tall, max(radius, 0.024), style, rng, ("multi-turn", "electrohydraulic", "bevel"))
-
-
-LINEAR: dict[str, Maker] = {
-    "diaphragm": _diaphragm, "piston": _piston, "ram": _ram, "motor": _motor, "turning": _turning,
-}  # fmt: skip
-
-
-def _positioner(half: float, tall: float, rng: Rng) -> list[Part]:
-    """A positioner on a bracket beside the yoke, with its feedback arm and gauges' pads."""
-    way = half + 0.06
-    z = 0.55 * tall
-    plate = merge([box((0.06, 0.004, 0.08), (0, way - 0.004, z)), box((0.004, 0.08, 0.05), (0.028, way - 0.045, z))])
-    if rng.random() < 0.5:
-        case = merge([box((0.12, 0.08, 0.11), (0, way + 0.038, z)), box((0.10, 0.02, 0.09), (0, way + 0.085, z))])
-    else:
-        case = along("y", turned([(0.055, 0.0), (0.06, 0.02), (0.06, 0.075), (0.045, 0.09)], 20), 0, way - 0.003, z)
-    arm = rod((0, 0.01, z + 0.01), (0, way, z + 0.01), 0.004, 6)
-    tube_ = rope(
-        [(-0.04, way + 0.03, z + 0.04), (-0.04, way + 0.03, tall + 0.02), (-0.02, 0.5 * half, tall + 0.03)], 0.003, 6
-    )
-    return [
-        Part(plate, "bracket", "steel", "actuator", "Connection assembly"),
-        Part(merge([case, arm, tube_]), "actuator", "electrical", "actuator"),
-    ]
-
-
-def _scale(half: float, tall: float) -> Part:
-    """The travel scale on a yoke's arm with its pointer on the stem."""
-    lines = [box((0.003, 0.022, 0.0015), (0, 0.6 * half, z)) for z in np.linspace(0.35, 0.65, 6) * tall]
-    plate = box((0.002, 0.025, 0.4 * tall), (0.003, 0.6 * half, 0.5 * tall))
-    pointer: Solid = box((0.004, 0.6 * half, 0.004), (0.006, 0.3 * half, 0.5 * tall))
-    return Part(
-        merge([plate, pointer, *[moved(line, at(0.004)) for line in lines]]), "position indicator", "dial", BODY
-    )
+LINEAR: dict[str, Callable[[float, float, ModelingStyle, Rng], list[Part]]] = {
+    make: lambda radius, tall, style, rng, make=make: _stroke(make, radius, tall, style, rng)  # type: ignore[misc]
+    for make in STROKES
+}
 
 
 def linear(
     x: float, z: float, radius: float, style: ModelingStyle, rng: Rng, kinds: tuple[str, ...] = ()
 ) -> list[Part]:
-    """A yoke with one of some linear actuators on it, maybe a positioner and a travel scale.
-
-    Args:
-        x: of the stem [m].
-        z: of the bonnet's top [m].
-        radius: of the pipe, which everything is scaled by [m].
-        style: that models it.
-        rng: of its proportions.
-        kinds: of ``LINEAR`` to draw from; all by default.
-    """
-    kind = str(rng.choice(kinds or tuple(LINEAR)))
-    half, tall = 0.025 + 0.55 * radius, float(rng.uniform(0.8, 1.3)) * (0.07 + 1.3 * radius)
-    slim = 0.004 + 0.07 * radius
-    middle = 0.5 * tall
-    parts = [yoke_arms(half, tall, style, rng, "actuator"), shaft(-0.01, tall + 0.01, slim, style)]
-    coupling = merge(
-        [
-            box((3.0 * slim, 5.0 * slim, 4 * slim), (0, 0, middle)),
-            hexagon(3.5 * slim, middle - 3.5 * slim, middle - 2 * slim),
-        ]
-    )
-    parts.append(Part(coupling, "valve stem", "trim", BODY))
-    parts += LINEAR[kind](radius, tall, style, rng)
-    if kind in ("diaphragm", "piston") and rng.random() < 0.55:
-        parts += _positioner(half, tall, rng)
-    if rng.random() < 0.6:
-        parts.append(_scale(half, tall))
-    return placed(parts, at(x, 0, z) @ spun("z", float(rng.choice([0.0, 0.5, 1.0])) * np.pi))
+    """A yoke with one of some linear actuators of ``kinds`` on a stem at ``x``, a bonnet's top on ``z`` [m]."""
+    t = table_for(style)
+    _linears(*kinds).draw(rng, {"radius": radius}).build(t.at(x, 0, z))
+    return t.parts

@@ -2,351 +2,287 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
-from cadplants.families.valves.drive import drive, stem, wheel
-from cadplants.families.valves.parts import (
-    MID,
-    SMALL,
-    bend,
-    body,
-    bonnet,
-    cover,
-    hub_radius,
-    laid,
-    other,
-    piece,
-    screwed,
-)
-from cadplants.families.valves.valve import disc_flange, flanged_body, valve_family
-from cadplants.family import Family, Model, placed
+from cadplants.builder.device import families_of
+from cadplants.builder.params import among, between, chance, nested
+from cadplants.builder.table import Table, outline
+from cadplants.families.valves.base import BOTH, lying, sized
+from cadplants.families.valves.drive import Wheel, drive_of, put_spindle
+from cadplants.families.valves.parts import SMALL, bend, cover, hub_radius, threaded_run
+from cadplants.families.valves.valve import Valve, disc_flange, flanged_body
+from cadplants.family import Model
 from cadplants.flange import plate_thickness
-from cadplants.mesh_ops import extrude, merge, moved
-from cadplants.modeling_style import ModelingStyle
+from cadplants.mesh_ops import Solid, extrude, moved
 from cadplants.polygon import rounded_rectangle
 from cadplants.primitives import along, around, ball, box, cylinder, hexagon, ring, rod, rope, turned
-from cadplants.standards import FACE_TO_FACE, FLANGES, PIPES
-from cadplants.transforms import at, spun
+from cadplants.standards import FACE_TO_FACE, PIPES
+from cadplants.transforms import at
 
 __all__ = ["BLOCKS"]
 
+_LONG = "length / radius of the pipe"
 
-def _block_bleed(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+
+def _short(dn: int) -> float:
+    """What the small operators of a block are scaled by [m]."""
+    return 0.7 * PIPES[dn].radius
+
+
+def _bleeder(dn: int) -> float:
+    """The size of a bleed needle [m]."""
+    return 0.009 + 0.03 * PIPES[dn].radius
+
+
+def _swollen(t: Table, length: float, wide: float) -> Solid:
+    """A flanged body along x that widens to its middle."""
+    neck, end = hub_radius(t.dn), plate_thickness(t.dn) + 0.05 * length
+    middle = outline(neck, end, wide, 0.4 * length, wide, 0.6 * length, neck, length - end)
+    return flanged_body(t.dn, t.style, length, middle)
+
+
+class BlockBleed(Valve, name="ball valve/double block and bleed", sizes=sized(15, 80)):
     """A double block and bleed valve in one flanged body (API 6D short): two levers, a bleed needle between."""
-    r, thick = PIPES[dn].radius, plate_thickness(dn)
-    length = round(float(rng.uniform(5.5, 7.5)) * r + 2 * thick + 0.08, 6)
-    wide = max(1.5 * r + 0.012, 1.02 * hub_radius(dn))
-    neck = hub_radius(dn)
-    low, high = thick + 0.018 + 0.1 * r, length - thick - 0.018 - 0.1 * r
-    shell = flanged_body(dn, style, length, [(neck, low), (wide, low), (wide, high), (neck, high)])
-    solids = [shell]
-    if rng.random() < 0.5:
-        solids.append(
-            along("x", extrude(rounded_rectangle(2.1 * wide, 2.1 * wide, 0.3 * wide, 3), low + 0.002, high - 0.002))
-        )
-        face = 1.05 * wide
-    else:
-        face = wide
-    parts = [body(*solids)]
-    boss, top = 0.5 * r + 0.006, face + 0.012 + 0.15 * r
-    span = high - low
-    for x in (low + 0.22 * span, high - 0.22 * span):
-        head = [body(cylinder(boss, 0.8 * face, top, 12)), stem(top - 0.001, top + 0.012, 0.5 * boss, style)]
-        parts += placed([*head, *drive(0.0, top + 0.01, 0.7 * r, style, rng, ("lever", "lever", "bar"))], at(x))
-    b = 0.009 + 0.03 * r
-    way = spun("x", float(rng.choice([-0.5, 0.5, 0.0])) * np.pi)
-    mid = at(length / 2) @ way
-    bleed = [
-        body(hexagon(2.6 * b, 0.8 * wide, face + 2.0 * b)),
-        bonnet(
-            hexagon(2.0 * b, face + 1.95 * b, face + 3.2 * b), cylinder(0.8 * b, face + 3.1 * b, face + 4.6 * b, 10)
-        ),
-        piece("gland", hexagon(1.4 * b, face + 4.5 * b, face + 5.2 * b)),
-        piece("valve stem", cylinder(0.35 * b, face + 5.1 * b, face + 7.2 * b, 8)),
-        *drive(0.0, face + 6.8 * b, b, style, rng, ("bar",)),
-    ]
-    return Model([*parts, *placed(bleed, mid)], length, kind="ball valve")
+
+    long: float = between(5.5, 7.5, _LONG)
+    square: bool = chance(0.5, "its middle is square")
+    first: Any = drive_of("lever", "lever", "bar", radius=lambda p: _short(p.dn))
+    second: Any = drive_of("lever", "lever", "bar", radius=lambda p: _short(p.dn))
+    turn: float = among((-np.pi / 2, np.pi / 2, 0.0), "of the bleed needle about the pipe", "rad")
+    bleed: Any = drive_of("bar", radius=lambda p: _bleeder(p.dn))
+
+    def build(self, t: Table) -> Model:
+        r, thick, neck, b = t.pipe.radius, plate_thickness(t.dn), hub_radius(t.dn), _bleeder(t.dn)
+        length, w = round(self.long * r + 2 * thick + 0.08, 6), max(1.5 * r + 0.012, 1.02 * neck)
+        low = thick + 0.018 + 0.1 * r
+        high = length - thick - 0.018 - 0.1 * r
+        solids = [flanged_body(t.dn, t.style, length, outline(neck, low, w, low, w, high, neck, high))]
+        if self.square:
+            block = extrude(rounded_rectangle(2.1 * w, 2.1 * w, 0.3 * w, 3), low + 0.002, high - 0.002)
+            solids.append(along("x", block))
+        t.add("valve body", *solids)
+        face = 1.05 * w if self.square else w
+        boss, top, span = 0.5 * r + 0.006, face + 0.012 + 0.15 * r, high - low
+        for x, lever in ((low + 0.22 * span, self.first), (high - 0.22 * span, self.second)):
+            up = t.at(x)
+            up.add("valve body", cylinder(boss, 0.8 * face, top, 12))
+            put_spindle(up, top - 0.001, top + 0.012, 0.5 * boss)
+            lever.build(up.at(0, 0, top + 0.01))
+        out = t.at(length / 2).spun("x", self.turn)
+        out.add("valve body", hexagon(2.6 * b, 0.8 * w, face + 2.0 * b))
+        out = out.at(0, 0, face)
+        out.add("valve bonnet", hexagon(2.0 * b, 1.95 * b, 3.2 * b), cylinder(0.8 * b, 3.1 * b, 4.6 * b, 10))
+        out.add("gland", hexagon(1.4 * b, 4.5 * b, 5.2 * b))
+        out.add("valve stem", cylinder(0.35 * b, 5.1 * b, 7.2 * b, 8))
+        self.bleed.build(out.at(0, 0, 6.8 * b))
+        return t.model(length, kind="ball valve")
 
 
-def _balancing(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class FlangedBalancing(Valve, name="globe valve/balancing flanged", sizes=sized(25, 200)):
     """A flanged balancing valve (EN 558 series 1): slanting or upright bonnet, digit wheel, test points."""
-    length, r = FACE_TO_FACE["globe"][dn], PIPES[dn].radius
-    neck, thick = hub_radius(dn), plate_thickness(dn)
-    wide = max(1.25 * r + 0.006, 1.04 * neck)
-    shell = flanged_body(
-        dn,
-        style,
-        length,
-        [(neck, thick + 0.05 * length), (wide, 0.4 * length), (wide, 0.6 * length), (neck, 0.95 * length - thick)],
-    )
-    tilt = float(rng.choice([0.0, 0.6, 0.75]))
-    n = style.round(wide)
-    rim = 1.1 * wide + 0.008
-    clear = (0.5 * FLANGES[dn].outer + 0.012 + rim * np.sin(tilt)) / np.cos(
-        tilt
-    )  # the slanting cover passes the flange
-    seat = max(1.3 * wide, float(clear) + 0.01 + 0.08 * r)
-    plate = 0.010 + 0.08 * r
-    pose = at((0.5 if tilt == 0 else 0.44) * length) @ spun("y", tilt)
-    top = seat + plate
-    head = [
-        body(cylinder(0.85 * wide, 0.2 * wide, seat - 0.003, n)),
-        *cover(rim, seat, plate, int(rng.choice([4, 6, 8])), style),
-    ]
-    tall, grip = 0.04 + 0.5 * r, 0.03 + 0.45 * r
-    head.append(bonnet(turned([(0.6 * wide, top - 0.001), (0.4 * wide, top + tall)], n)))
-    m = max(10, style.round(grip))
-    knob = [
-        turned(
-            [
-                (0.8 * grip, top + tall - 0.002),
-                (grip, top + tall + 0.1 * grip),
-                (grip, top + tall + 0.8 * grip),
-                (0.7 * grip, top + tall + grip),
-            ],
-            m,
-        )
-    ]
-    knob.append(
-        around(
-            box((0.12 * grip, 0.16 * grip, 0.6 * grip), (0, 0, top + tall + 0.45 * grip)),
-            int(rng.choice([6, 12])),
-            grip,
-        )
-    )
-    head.append(piece("handwheel", merge(knob), color="handle", bundle=""))
-    window = box((0.5 * grip, 0.3 * grip, 0.05 * grip), (0, 0.3 * grip, top + tall + 1.0 * grip))
-    head.append(piece("position indicator", window, color="dial"))
-    parts = [body(shell), *placed(head, pose)]
-    lean = float(rng.choice([0.4, 0.9, np.pi / 2]))
-    for x in (thick + 0.07 * length, length - thick - 0.07 * length):
-        test = [hexagon(0.018, 0.9 * neck, neck + 0.016), cylinder(0.007, neck + 0.01, neck + 0.03, 10)]
-        cap = cylinder(0.010, neck + 0.028, neck + 0.055, 10)
-        parts += placed([body(*test), bonnet(cap)], at(x) @ spun("x", -lean))
-    return Model(parts, length, kind="globe valve")
 
+    tilt: float = among((0.0, 0.6, 0.75), "of the bonnet, downstream", "rad")
+    bolts: int = among((4, 6, 8), "of the cover")
+    ribs: int = among((6, 12), "of the digit wheel")
+    lean: float = among((0.4, 0.9, np.pi / 2), "of the test points aside", "rad")
 
-def _fusible(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
-    """A fire-safe emergency valve (UL 842): spring in its bonnet, a lever held open by a fusible link to a bracket."""
-    r = PIPES[dn].radius
-    length = float(rng.uniform(4.8, 6.2)) * r + 0.035
-    wide, n, x = 1.45 * r + 0.004, style.round(1.45 * r), length / 2
-    core = [(1.05 * r, 0.12 * length), (wide, 0.36 * length), (wide, 0.64 * length), (1.05 * r, 0.88 * length)]
-    parts = [body(screwed(dn, style, length, core), moved(cylinder(0.85 * wide, 0.0, 1.4 * wide, n), at(x)))]
-    low, tall = 1.4 * wide, float(rng.uniform(1.2, 2.2)) * wide
-    hood = [
-        hexagon(2.0 * wide, low - 0.002, low + 0.5 * wide),
-        turned([(0.7 * wide, low + 0.4 * wide), (0.65 * wide, low + tall), (0.35 * wide, low + tall + 0.2 * wide)], n),
-    ]
-    top = low + tall + 0.2 * wide
-    parts.append(bonnet(moved(merge(hood), at(x))))
-    rise = 0.9 * wide
-    parts.append(piece("valve stem", moved(cylinder(0.14 * wide + 0.001, top - 0.002, top + rise, 8), at(x))))
-    long = float(rng.uniform(3.2, 5.0)) * wide
-    post_x, z = x - 1.2 * wide, top + rise
-    arms = [
-        box((0.35 * wide, 0.12 * wide, z - low + 0.2 * wide), (post_x, s * 0.25 * wide, (z + low) / 2)) for s in (-1, 1)
-    ]
-    fork = merge([*arms, box((1.2 * wide, 0.62 * wide, 0.2 * wide), (x - 0.75 * wide, 0, low + 0.1 * wide))])
-    parts.append(piece("yoke", fork))
-    pin = along("y", cylinder(0.09 * wide, -0.34 * wide, 0.34 * wide, 8), post_x, 0, z)
-    bar = box((long, 0.3 * wide, 0.22 * wide), (post_x + long / 2 - 0.2 * wide, 0, z))
-    parts += [piece("valve stem", pin), piece("lever", bar, color="handle", bundle="")]
-    tip = post_x + long - 0.5 * wide
-    foot = min(tip, length - 0.12 * length)
-    base = 1.1 * r
-    link_low, link_high = base + 0.3 * (z - base), base + 0.62 * (z - base)
-    wires = [
-        rod((foot, 0, base - 0.003), (tip, 0, link_low + 0.002), 0.06 * wide + 0.0008, 6),
-        rod((tip, 0, link_high - 0.002), (tip, 0, z), 0.06 * wide + 0.0008, 6),
-    ]
-    parts.append(piece("lever", *wires))
-    plates = [
-        box((0.5 * wide, 0.05 * wide + 0.001, link_high - link_low), (tip, 0, (link_low + link_high) / 2)),
-        box((0.4 * wide, 0.09 * wide + 0.001, 0.5 * (link_high - link_low)), (tip, 0, (link_low + link_high) / 2)),
-    ]
-    parts.append(piece("lever", *plates, color="dial"))
-    return Model(parts, round(length, 6), "welded", "shut-off valve")
-
-
-def _quick(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
-    """A quick-opening gate or blow-off valve: sliding stem through a bonnet, a hand lever on links about a fulcrum."""
-    length, r = FACE_TO_FACE["gate"][dn], PIPES[dn].radius
-    neck, thick = hub_radius(dn), plate_thickness(dn)
-    wide, x = max(1.2 * r + 0.006, 1.03 * neck), length / 2
-    shell = flanged_body(
-        dn,
-        style,
-        length,
-        [(neck, thick + 0.05 * length), (wide, 0.4 * length), (wide, 0.6 * length), (neck, 0.95 * length - thick)],
-    )
-    n = style.round(wide)
-    seat, plate = max(2.0 * r + 0.02, 0.5 * FLANGES[dn].outer + 0.012), 0.009 + 0.08 * r
-    flat = bool(rng.integers(2))
-    chest = turned([(0.95 * wide, 0.0), (0.95 * wide, seat - 0.003)], n)
-    if flat:
-        chest = moved(extrude(rounded_rectangle(1.3 * wide, 2.1 * wide, 0.3 * wide, 3), 0.0, seat - 0.003), np.eye(4))
-    parts = [
-        body(shell, moved(chest, at(x))),
-        *placed(cover(1.2 * wide + 0.006, seat, plate, 8, style, flat, 0.3 * r), at(x)),
-    ]
-    top = seat + plate + 0.3 * r
-    box_ = turned([(0.45 * wide, top - 0.3 * r), (0.4 * wide, top + 0.9 * r)], n)
-    gland = [
-        box((0.5 * wide, 1.5 * wide, 0.010 + 0.05 * r), (0, 0, top + 0.9 * r + 0.004)),
-        cylinder(0.3 * wide, top + 0.85 * r, top + 1.3 * r + 0.01, 12),
-    ]
-    lift = float(rng.uniform(0.8, 1.8)) * r + 0.02
-    high = top + 1.3 * r + 0.01 + lift
-    parts += [bonnet(moved(box_, at(x))), piece("gland", moved(merge(gland), at(x)))]
-    parts.append(piece("valve stem", moved(cylinder(0.004 + 0.09 * r, top, high, 10), at(x))))
-    side = float(rng.choice([-1, 1]))
-    arm_x, t = x - side * (1.1 * wide + 0.01), 0.004 + 0.05 * r
-    stand = [
-        box((2.2 * t + 0.25 * wide, 1.2 * t, high - seat), (arm_x, s * 2.2 * t, (high + seat) / 2)) for s in (-1, 1)
-    ]
-    stand.append(box((0.5 * wide, 7 * t, 0.008 + 0.03 * r), (arm_x, 0, seat + plate / 2)))
-    pins = [along("y", cylinder(0.7 * t, -3 * t, 3 * t, 8), px, 0, high - t) for px in (arm_x, x)]
-    clevis = box((3 * t, 3.4 * t, 5 * t), (x, 0, high - 1.5 * t))
-    parts += [piece("yoke", *stand, color="valve"), piece("valve stem", *pins, clevis)]
-    long, tilt = float(rng.uniform(4.0, 6.5)) * wide + 0.1, float(rng.uniform(0.0, 0.25))
-    bar = [
-        box((long, 1.6 * t, 3.0 * t), (long / 2 - 3 * t, 0, 0)),
-        along("x", cylinder(1.6 * t, long - 0.25 * long, long, 10)),
-    ]
-    turn = at(arm_x, 0, high - t) @ spun("z", 0.0 if side > 0 else np.pi) @ spun("y", -0.2 * tilt)
-    parts.append(piece("lever", moved(merge(bar), turn), color="handle", bundle=""))
-    return Model(parts, length, kind="gate valve")
-
-
-def _landing(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
-    """A fire landing valve (BS 5041-1): flanged inlet, oblique globe, instantaneous outlet, cap, wheel."""
-    r, thick = PIPES[dn].radius, plate_thickness(dn)
-    n, wide = style.round(1.5 * r), 1.45 * r + 0.006
-    center = thick + 0.02 + 1.5 * wide
-    neck = disc_flange(dn, style, center - 0.4 * wide)
-    parts = [body(neck, moved(ball(1.08 * wide, n), at(0, 0, center)))]
-    lean = float(rng.choice([0.6, 0.785, np.pi / 2]))
-    up = at(0, 0, center) @ spun("x", lean - 0.785 if lean > 1 else -0.15)
-    top = 1.5 * wide
-    head = [body(turned([(0.85 * wide, 0.3 * wide), (0.85 * wide, top)], n))]
-    head += [
-        bonnet(
-            turned(
-                [
-                    (1.05 * wide, top - 0.15 * wide),
-                    (1.05 * wide, top + 0.2 * wide),
-                    (0.55 * wide, top + 0.4 * wide),
-                    (0.45 * wide, top + 1.3 * wide),
-                ],
-                n,
+    def build(self, t: Table) -> Model:
+        length, r, neck = FACE_TO_FACE["globe"][t.dn], t.pipe.radius, hub_radius(t.dn)
+        w, tilt = max(1.25 * r + 0.006, 1.04 * neck), self.tilt
+        n, rim, plate = t.n(w), 1.1 * w + 0.008, 0.010 + 0.08 * r
+        # The slanting cover passes the flange.
+        clear = float((0.5 * t.flange.outer + 0.012 + rim * np.sin(tilt)) / np.cos(tilt))
+        seat = max(1.3 * w, clear + 0.01 + 0.08 * r)
+        t.add("valve body", _swollen(t, length, w))
+        head = t.at((0.5 if tilt == 0 else 0.44) * length).spun("y", tilt)
+        head.add("valve body", cylinder(0.85 * w, 0.2 * w, seat - 0.003, n))
+        head.extend(cover(rim, seat, plate, self.bolts, t.style))
+        tall, g = 0.04 + 0.5 * r, 0.03 + 0.45 * r
+        head.at(0, 0, seat + plate).add("valve bonnet", turned(outline(0.6 * w, -0.001, 0.4 * w, tall), n))
+        top = seat + plate + tall
+        knob = outline(0.8 * g, top - 0.002, g, top + 0.1 * g, g, top + 0.8 * g, 0.7 * g, top + g)
+        rib = box((0.12 * g, 0.16 * g, 0.6 * g), (0, 0, top + 0.45 * g))
+        head.add("handwheel", turned(knob, t.n(g, 10)), around(rib, self.ribs, g))
+        head.add("position indicator", box((0.5 * g, 0.3 * g, 0.05 * g), (0, 0.3 * g, top + 1.0 * g)), of="dial")
+        for x in (plate_thickness(t.dn) + 0.07 * length, length - plate_thickness(t.dn) - 0.07 * length):
+            test = t.at(x).spun("x", -self.lean)
+            test.add(
+                "valve body", hexagon(0.018, 0.9 * neck, neck + 0.016), cylinder(0.007, neck + 0.01, neck + 0.03, 10)
             )
+            test.add("valve bonnet", cylinder(0.010, neck + 0.028, neck + 0.055, 10))
+        return t.model(length, kind="globe valve")
+
+
+class Fusible(Valve, name="shut-off valve/fusible link", sizes=SMALL):
+    """A fire-safe emergency valve (UL 842): spring in its bonnet, a lever held open by a fusible link to a bracket."""
+
+    long: float = between(4.8, 6.2, _LONG)
+    tall: float = between(1.2, 2.2, "height of the bonnet / radius of the body")
+    lever: float = between(3.2, 5.0, "length of the lever / radius of the body")
+
+    def build(self, t: Table) -> Model:
+        r, length = t.pipe.radius, self.long * t.pipe.radius + 0.035
+        w, n, x = 1.45 * r + 0.004, t.n(1.45 * r), length / 2
+        marks = ((1.05 * r, 0.12), (w, 0.36), (w, 0.64), (1.05 * r, 0.88))
+        run = threaded_run(t, length, *marks)
+        t.add("valve body", run, moved(cylinder(0.85 * w, 0.0, 1.4 * w, n), at(x)))
+        low, long, up = 1.4 * w, self.lever * w, t.at(x)
+        top = low + self.tall * w
+        hood = turned(outline(0.7 * w, low + 0.4 * w, 0.65 * w, top, 0.35 * w, top + 0.2 * w), n)
+        up.add("valve bonnet", hexagon(2.0 * w, low - 0.002, low + 0.5 * w), hood)
+        top += 0.2 * w
+        z, post = top + 0.9 * w, x - 1.2 * w
+        up.add("valve stem", cylinder(0.14 * w + 0.001, top - 0.002, z, 8))
+        size = (0.35 * w, 0.12 * w, z - low + 0.2 * w)
+        arms = [box(size, (post, s * 0.25 * w, (z + low) / 2)) for s in BOTH]
+        fork = box((1.2 * w, 0.62 * w, 0.2 * w), (x - 0.75 * w, 0, low + 0.1 * w))
+        t.add("yoke", *arms, fork, of="trim")
+        t.at(post, 0, z).along("y").add("valve stem", cylinder(0.09 * w, -0.34 * w, 0.34 * w, 8))
+        t.at(post, 0, z).add("lever", box((long, 0.3 * w, 0.22 * w), (long / 2 - 0.2 * w, 0, 0)))
+        tip, base, wire = post + long - 0.5 * w, 1.1 * r, 0.06 * w + 0.0008
+        foot, lower, upper = min(tip, 0.88 * length), base + 0.3 * (z - base), base + 0.62 * (z - base)
+        t.add(
+            "lever",
+            rod((foot, 0, base - 0.003), (tip, 0, lower + 0.002), wire, 6),
+            rod((tip, 0, upper - 0.002), (tip, 0, z), wire, 6),
+            of="trim",
+            own=True,
         )
-    ]
-    head += [piece("gland", hexagon(0.8 * wide, top + 1.25 * wide, top + 1.6 * wide))]
-    head += [
-        stem(top + 1.55 * wide, top + 2.8 * wide, 0.15 * wide, style),
-        wheel(float(rng.uniform(1.4, 2.0)) * wide + 0.01, 0, top + 2.2 * wide, style, rng),
-    ]
-    parts += placed(head, up)
-    mouth = at(0, 0, center) @ spun("x", -lean - 0.5)
-    out = turned(
-        [
-            (0.9 * r, 0.5 * wide),
-            (0.9 * r, 1.9 * wide),
-            (1.35 * r, 2.0 * wide),
-            (1.35 * r, 2.9 * wide),
-            (1.15 * r, 3.0 * wide),
-        ],
-        n,
-    )
-    lugs = [along("x" if s > 0 else "-x", cylinder(0.18 * r, 1.3 * r, 1.7 * r, 8), 0, 0, 2.5 * wide) for s in (-1, 1)]
-    parts.append(body(moved(merge([out, *lugs]), mouth)))
-    cap = [cylinder(1.2 * r, 2.99 * wide, 3.4 * wide, n), box((2.2 * r, 0.3 * r, 0.3 * wide), (0, 0, 3.5 * wide))]
-    parts.append(other("Pipe assembly", "pipe cap", "rubber", moved(merge(cap), mouth), own=True))
-    return Model(laid(parts), kind="globe valve")
+        tall, middle = upper - lower, t.at(tip, 0, (lower + upper) / 2)
+        plates = ((0.5 * w, 0.05 * w + 0.001, tall), (0.4 * w, 0.09 * w + 0.001, 0.5 * tall))
+        middle.add("lever", *map(box, plates), of="dial", own=True)
+        return t.model(round(length, 6), "welded", "shut-off valve")
 
 
-def _tank_bottom(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class QuickOpening(Valve, name="gate valve/quick opening", sizes=sized(15, 100)):
+    """A quick-opening gate or blow-off valve: sliding stem through a bonnet, a hand lever on links about a fulcrum."""
+
+    flat: bool = among((False, True), "a flat chest under a square cover")
+    lift: float = between(0.8, 1.8, "how far the stem stands out / radius of the pipe")
+    side: int = among(BOTH, "side of the lever along the pipe")
+    long: float = between(4.0, 6.5, "length of the lever / radius of the body")
+    tilt: float = between(0.0, 0.05, "of the lever, upwards", "rad")
+
+    def build(self, t: Table) -> Model:
+        length, r = FACE_TO_FACE["gate"][t.dn], t.pipe.radius
+        w, x, side = max(1.2 * r + 0.006, 1.03 * hub_radius(t.dn)), length / 2, self.side
+        n, seat, plate = t.n(w), max(2.0 * r + 0.02, 0.5 * t.flange.outer + 0.012), 0.009 + 0.08 * r
+        chest = cylinder(0.95 * w, 0.0, seat - 0.003, n)
+        if self.flat:
+            chest = extrude(rounded_rectangle(1.3 * w, 2.1 * w, 0.3 * w, 3), 0.0, seat - 0.003)
+        t.add("valve body", _swollen(t, length, w), moved(chest, at(x)))
+        t.at(x).extend(cover(1.2 * w + 0.006, seat, plate, 8, t.style, self.flat, 0.3 * r))
+        top = seat + plate + 0.3 * r
+        up, high = t.at(x, 0, top), top + 1.3 * r + 0.01 + self.lift * r + 0.02
+        up.add("valve bonnet", turned(outline(0.45 * w, -0.3 * r, 0.4 * w, 0.9 * r), n))
+        bridge = box((0.5 * w, 1.5 * w, 0.010 + 0.05 * r), (0, 0, 0.9 * r + 0.004))
+        up.add("gland", bridge, cylinder(0.3 * w, 0.85 * r, 1.3 * r + 0.01, 12))
+        up.add("valve stem", cylinder(0.004 + 0.09 * r, 0, high - top, 10))
+        far, bar = x - side * (1.1 * w + 0.01), 0.004 + 0.05 * r
+        size = (2.2 * bar + 0.25 * w, 1.2 * bar, high - seat)
+        stand = [box(size, (far, s * 2.2 * bar, (high + seat) / 2)) for s in BOTH]
+        t.add("yoke", *stand, box((0.5 * w, 7 * bar, 0.008 + 0.03 * r), (far, 0, seat + plate / 2)))
+        pins = [along("y", cylinder(0.7 * bar, -3 * bar, 3 * bar, 8), a, 0, high - bar) for a in (far, x)]
+        t.add("valve stem", *pins, box((3 * bar, 3.4 * bar, 5 * bar), (x, 0, high - 1.5 * bar)))
+        long = self.long * w + 0.1
+        grip = along("x", cylinder(1.6 * bar, long - 0.25 * long, long, 10))
+        lever = t.at(far, 0, high - bar).spun("z", 0.0 if side > 0 else np.pi).spun("y", -self.tilt)
+        lever.add("lever", box((long, 1.6 * bar, 3.0 * bar), (long / 2 - 3 * bar, 0, 0)), grip)
+        return t.model(length, kind="gate valve")
+
+
+class Landing(Valve, name="globe valve/fire landing", place="head", sizes=(50, 65, 80)):
+    """A fire landing valve (BS 5041-1): flanged inlet, oblique globe, instantaneous outlet, cap, wheel."""
+
+    lean: float = among((0.6, 0.785, np.pi / 2), "of the outlet", "rad")
+    size: float = between(1.4, 2.0, "radius of the wheel / of the globe")
+    wheel: Wheel = nested(Wheel, "handwheel")
+
+    def build(self, t: Table) -> Model:
+        r, w = t.pipe.radius, 1.45 * t.pipe.radius + 0.006
+        n, axis, top = t.n(1.5 * r), plate_thickness(t.dn) + 0.02 + 1.5 * w, 1.5 * w
+        globe = moved(ball(1.08 * w, n), at(0, 0, axis))
+        t.add("valve body", disc_flange(t.dn, t.style, axis - 0.4 * w), globe)
+        up = t.at(0, 0, axis).spun("x", self.lean - 0.785 if self.lean > 1 else -0.15)
+        up.add("valve body", turned(outline(0.85 * w, 0.3 * w, 0.85 * w, top), n))
+        up = up.at(0, 0, top)
+        hood = outline(1.05 * w, -0.15 * w, 1.05 * w, 0.2 * w, 0.55 * w, 0.4 * w, 0.45 * w, 1.3 * w)
+        up.add("valve bonnet", turned(hood, n))
+        up.add("gland", hexagon(0.8 * w, 1.25 * w, 1.6 * w))
+        put_spindle(up, 1.55 * w, 2.8 * w, 0.15 * w)
+        self.wheel.build(up, self.size * w + 0.01, 2.2 * w)
+        mouth = t.at(0, 0, axis).spun("x", -self.lean - 0.5)
+        marks = ((0.9, 0.5), (0.9, 1.9), (1.35, 2.0), (1.35, 2.9), (1.15, 3.0))
+        lug = cylinder(0.18 * r, 1.3 * r, 1.7 * r, 8)
+        lugs = [along(way, lug, 0, 0, 2.5 * w) for way in ("-x", "x")]
+        mouth.add("valve body", turned([(a * r, z * w) for a, z in marks], n), *lugs)
+        grip = box((2.2 * r, 0.3 * r, 0.3 * w), (0, 0, 3.5 * w))
+        mouth.add("pipe cap", cylinder(1.2 * r, 2.99 * w, 3.4 * w, n), grip, of="rubber", own=True)
+        return lying(t, "globe valve")
+
+
+class TankBottom(Valve, name="tank valve/flush bottom", place="head", sizes=sized(25, 200)):
     """A flush tank-bottom valve (DIN 28137 type): pad flange, disc in its mouth, slanting outlet, stem."""
-    r, thick = PIPES[dn].radius, plate_thickness(dn)
-    n, wide = style.round(1.4 * r), 1.35 * r + 0.006
-    center = thick + 0.3 * FLANGES[dn].outer + wide
-    angle = float(rng.choice([0.785, 1.047]))
-    parts = [body(disc_flange(dn, style, center), moved(ball(1.12 * wide, n), at(0, 0, center)))]
-    reach = 0.62 * FLANGES[dn].outer + 0.5 * wide + thick
-    outlet = moved(disc_flange(dn, style, reach), at(0, 0, -reach))
-    parts.append(body(moved(outlet, at(0, 0, center) @ spun("x", np.pi - angle))))
-    plug = turned([(0.8 * r, -0.0008), (0.95 * r, 0.006), (0.95 * r, 0.3 * r), (0.3 * r, 0.6 * r)], n)
-    parts.append(piece("valve disc", plug))
-    seat, plate = 1.6 * wide, 0.010 + 0.08 * r
-    head = [
-        body(cylinder(0.8 * wide, 0.4 * wide, seat - 0.003, n)),
-        *cover(1.15 * wide + 0.006, seat, plate, 4, style, bool(rng.integers(2))),
-    ]
-    top, tall = seat + plate, 0.06 + 1.4 * r
-    if rng.random() < 0.7:
-        arms = [box((0.02 + 0.1 * r, 0.008 + 0.06 * r, tall), (0, s * 0.6 * wide, top + tall / 2)) for s in (-1, 1)]
-        head.append(piece("yoke", *arms, box((0.03 + 0.15 * r, 1.4 * wide, 0.012), (0, 0, top + tall)), color="valve"))
-        head.append(piece("gland", cylinder(0.4 * wide, top - 0.001, top + 0.35 * tall, 12)))
-        head += [
-            stem(top, top + tall + 0.05 + 0.5 * r, 0.005 + 0.1 * r, style),
-            wheel(0.04 + 1.1 * r, 0, top + tall + 0.02, style, rng),
-        ]
-    else:
-        can = 1.3 * wide + 0.01
-        m = style.round(can)
-        head.append(piece("yoke", ring(0.5 * wide, 0.7 * wide, top - 0.001, top + 0.4 * tall, n), color="valve"))
-        shape = [
-            (can, top + 0.4 * tall),
-            (can, top + 0.5 * tall),
-            (0.9 * can, top + 0.5 * tall),
-            (0.9 * can, top + 1.6 * tall),
-            (can, top + 1.6 * tall),
-            (can, top + 1.7 * tall),
-        ]
-        head.append(piece("actuator", turned(shape, m), bundle="actuator"))
-        head.append(piece("valve stem", cylinder(0.1 * wide + 0.003, top, top + 0.42 * tall, 8)))
-    parts += placed(head, at(0, 0, center) @ spun("x", 0.55))  # away from the outlet
-    return Model(laid(parts), kind="tank valve")
+
+    angle: float = among((0.785, 1.047), "of the outlet from the tank's axis", "rad")
+    square: bool = among((False, True), "its cover is square")
+    by_hand: bool = chance(0.7, "a wheel on a yoke rather than a cylinder")
+    wheel: Wheel = nested(Wheel, "handwheel", when=lambda p: p.by_hand)
+
+    def build(self, t: Table) -> Model:
+        r, thick, outer = t.pipe.radius, plate_thickness(t.dn), t.flange.outer
+        n, w = t.n(1.4 * r), 1.35 * r + 0.006
+        axis, reach = thick + 0.3 * outer + w, 0.62 * outer + 0.5 * w + thick
+        t.add("valve body", disc_flange(t.dn, t.style, axis), moved(ball(1.12 * w, n), at(0, 0, axis)))
+        mid = t.at(0, 0, axis)
+        mid.spun("x", np.pi - self.angle).at(0, 0, -reach).add("valve body", disc_flange(t.dn, t.style, reach))
+        t.add("valve disc", turned(outline(0.8 * r, -0.0008, 0.95 * r, 0.006, 0.95 * r, 0.3 * r, 0.3 * r, 0.6 * r), n))
+        seat, plate, head = 1.6 * w, 0.010 + 0.08 * r, mid.spun("x", 0.55)  # away from the outlet
+        head.add("valve body", cylinder(0.8 * w, 0.4 * w, seat - 0.003, n))
+        head.extend(cover(1.15 * w + 0.006, seat, plate, 4, t.style, self.square))
+        head, tall, slim = head.at(0, 0, seat + plate), 0.06 + 1.4 * r, 0.005 + 0.1 * r
+        if self.by_hand:
+            arms = [box((0.02 + 0.1 * r, 0.008 + 0.06 * r, tall), (0, s * 0.6 * w, tall / 2)) for s in BOTH]
+            head.add("yoke", *arms, box((0.03 + 0.15 * r, 1.4 * w, 0.012), (0, 0, tall)))
+            head.add("gland", cylinder(0.4 * w, -0.001, 0.35 * tall, 12))
+            put_spindle(head, 0, tall + 0.05 + 0.5 * r, slim)
+            self.wheel.build(head, 0.04 + 1.1 * r, tall + 0.02)
+        else:
+            can = 1.3 * w + 0.01
+            head.add("yoke", ring(0.5 * w, 0.7 * w, -0.001, 0.4 * tall, n))
+            marks = ((1, 0.4), (1, 0.5), (0.9, 0.5), (0.9, 1.6), (1, 1.6), (1, 1.7))
+            shape = turned([(a * can, z * tall) for a, z in marks], t.n(can))
+            head.bundled("actuator").add("actuator", shape, of="trim", own=True)
+            head.add("valve stem", cylinder(0.1 * w + 0.003, 0, 0.42 * tall, 8))
+        return lying(t, "tank valve")
 
 
-def _sampler(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class WaferSampler(Valve, name="sampling valve/wafer", sizes=sized(25, 200)):
     """A sampling valve between flanges (wafer): a thick ring, its neck with a needle head and a bent spout."""
-    size, bore = FLANGES[dn], PIPES[dn].bore
-    outer = 0.5 * (size.circle - size.bolt) - 0.0005
-    length, n = 0.03 + 0.15 * PIPES[dn].radius, style.round(size.outer / 2)
-    length = round(length, 6)
-    r = float(rng.uniform(0.008, 0.011))
-    stub = box(
-        (min(2.6 * r, 0.9 * length), 2.6 * r, 0.5 * size.outer + 0.055 - 0.9 * outer),
-        (length / 2, 0, (0.5 * size.outer + 0.055 + 0.9 * outer) / 2),
-    )
-    parts = [body(along("x", ring(bore, outer, 0.0, length, n)), stub)]
-    top = 0.5 * size.outer + 0.055
-    head = [
-        bonnet(hexagon(2.2 * r, top - 0.001, top + 1.6 * r), cylinder(0.9 * r, top + 1.5 * r, top + 4.0 * r, 12)),
-        piece("gland", hexagon(1.6 * r, top + 3.9 * r, top + 4.8 * r)),
-    ]
-    head.append(piece("valve stem", cylinder(0.35 * r, top + 4.7 * r, top + 7.5 * r, 8)))
-    head.append(wheel(0.012 + 2.0 * r, 0, top + 6.4 * r, style, rng)) if rng.random() < 0.6 else head.extend(
-        drive(0, top + 7.0 * r, r, style, rng, ("bar", "lever"))
-    )
-    parts += placed(head, at(length / 2))
-    z = 0.5 * size.outer + 0.045
-    spout = bend([(length / 2, 1.2 * r, z), (length / 2, 6 * r, z), (length / 2, 6 * r, z - 3.6 * r)], 2.5 * r)
-    parts.append(body(rope(spout, 0.6 * r, 12)))
-    return Model(parts, length, "wafer", "sampling valve")
+
+    size: float = between(0.008, 0.011, "radius of the needle's body", "m")
+    wheeled: bool = chance(0.6, "a wheel rather than a bar or lever")
+    wheel: Wheel = nested(Wheel, "handwheel", when=lambda p: p.wheeled)
+    drive: Any = drive_of("bar", "lever", radius=lambda p: p.size, when=lambda p: not p.wheeled)
+
+    def build(self, t: Table) -> Model:
+        size, r, length = t.flange, self.size, round(0.03 + 0.15 * t.pipe.radius, 6)
+        outer, n, top = 0.5 * (size.circle - size.bolt) - 0.0005, t.n(size.outer / 2), 0.5 * size.outer + 0.055
+        neck = box((min(2.6 * r, 0.9 * length), 2.6 * r, top - 0.9 * outer), (length / 2, 0, (top + 0.9 * outer) / 2))
+        t.add("valve body", along("x", ring(t.pipe.bore, outer, 0.0, length, n)), neck)
+        up = t.at(length / 2, 0, top)
+        up.add("valve bonnet", hexagon(2.2 * r, -0.001, 1.6 * r), cylinder(0.9 * r, 1.5 * r, 4.0 * r, 12))
+        up.add("gland", hexagon(1.6 * r, 3.9 * r, 4.8 * r))
+        up.add("valve stem", cylinder(0.35 * r, 4.7 * r, 7.5 * r, 8))
+        if self.wheeled:
+            self.wheel.build(up, 0.012 + 2.0 * r, 6.4 * r)
+        else:
+            self.drive.build(up.at(0, 0, 7.0 * r))
+        spout = bend([(0, 1.2 * r, -0.01), (0, 6 * r, -0.01), (0, 6 * r, -0.01 - 3.6 * r)], 2.5 * r)
+        up.add("valve body", rope(spout, 0.6 * r, 12))
+        return t.model(length, "wafer", "sampling valve")
 
 
-_MOST = tuple(dn for dn in MID if dn >= 25)
-
-BLOCKS: tuple[Family, ...] = (
-    valve_family("ball valve/double block and bleed", _block_bleed, tuple(dn for dn in MID if dn <= 80)),
-    valve_family("globe valve/balancing flanged", _balancing, _MOST),
-    valve_family("shut-off valve/fusible link", _fusible, SMALL),
-    valve_family("gate valve/quick opening", _quick, tuple(dn for dn in MID if dn <= 100)),
-    valve_family("globe valve/fire landing", _landing, (50, 65, 80), "head"),
-    valve_family("tank valve/flush bottom", _tank_bottom, _MOST, "head"),
-    valve_family("sampling valve/wafer", _sampler, _MOST),
-)
+BLOCKS = families_of(BlockBleed, FlangedBalancing, Fusible, QuickOpening, Landing, TankBottom, WaferSampler)

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 
 from cadgraph.model.scene import Floats
+from cadplants.builder.params import Params, among, nested
+from cadplants.builder.table import Table, outline
 from cadplants.families.valves.actuation_base import bolted
-from cadplants.families.valves.actuation_hand import slab, span
-from cadplants.families.valves.drive import BODY
+from cadplants.families.valves.actuation_hand import scaled, slab, span
+from cadplants.families.valves.drive import BODY, table_for
 from cadplants.families.valves.threaded import hex_end
 from cadplants.families.valves.valve import flanged_body
 from cadplants.family import Part
@@ -15,15 +19,14 @@ from cadplants.flange import plate_thickness
 from cadplants.mesh_ops import Solid, about_x, loft, merge, moved, reverse, revolve, volume, weld
 from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle, triangulate
-from cadplants.primitives import along, box, cylinder, dome, hexagon, lofted, rod, turned
+from cadplants.primitives import along, around, box, cylinder, dome, hexagon, lofted, rod, turned
 from cadplants.standards import FLANGES, PIPES
 from cadplants.transforms import at, spun
 from cadplants.valve_body import bore_of
 
 __all__ = [
-    "blade", "bolts_on", "chest", "ended", "lid_joint", "metal", "neck_of", "oval", "packing", "part_turned",
-    "plate_outline",
-    "room", "trim", "turned_blade", "valve_ball", "wedge",
+    "Blade", "Packing", "TurnedBlade", "bolts_on", "chest", "ended", "lid_joint", "metal", "neck_of", "oval",
+    "packing", "packings", "part_turned", "plate_outline", "room", "trim", "valve_ball", "wedge",
 ]  # fmt: skip
 
 Rng = np.random.Generator
@@ -86,17 +89,17 @@ def ended(dn: int, style: ModelingStyle, length: float, middle: Middle, ends: st
     return about_x(turned(outside, n))
 
 
-def part_turned(outline: Floats, start: float, end: float, steps: int) -> Solid:
+def part_turned(edge: Floats, start: float, end: float, steps: int) -> Solid:
     """A closed outline ``(radius, height)`` turned about z by less than a whole turn: a cut-away [m, rad]."""
     loops = [
-        np.column_stack([outline[:, 0] * np.cos(a), outline[:, 0] * np.sin(a), outline[:, 1]])
+        np.column_stack([edge[:, 0] * np.cos(a), edge[:, 0] * np.sin(a), edge[:, 1]])
         for a in np.linspace(start, end, steps + 1)
     ]
-    x, y = outline[:, 0], outline[:, 1]
+    x, y = edge[:, 0], edge[:, 1]
     if float(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1))) < 0:
         loops = [loop[::-1] for loop in loops]
-        outline = outline[::-1]
-    fill = triangulate(outline)
+        edge = edge[::-1]
+    fill = triangulate(edge)
     caps = [Solid(loops[0], fill.astype(np.int32)), Solid(loops[-1], fill[:, ::-1].astype(np.int32))]
     skin = loft(loops)
     solid = weld([reverse(skin), *caps])
@@ -121,67 +124,82 @@ def chest(low: float, high: float, a: float, b: float, n: int, bottom: float, sw
     return lofted(outlines)
 
 
-def bolts_on(outline: Floats, count: int, low: float, high: float, thread: float) -> Part:
+def bolts_on(edge: Floats, count: int, low: float, high: float, thread: float) -> Part:
     """Bolts with their nuts set in from an outline, through what lies between two heights [m]."""
-    inset = float(np.abs(outline).max())
+    inset = float(np.abs(edge).max())
     share = 1 - 1.1 * thread / inset
-    step = np.vstack([outline, outline[:1]]) * share
+    step = np.vstack([edge, edge[:1]]) * share
     walked = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(step, axis=0), axis=1))])
     where = (np.arange(count) + 0.5) * walked[-1] / count
-    one = merge(
-        [
-            cylinder(thread / 2, low, high, 8),
-            hexagon(1.5 * thread, high, high + 0.7 * thread),
-            hexagon(1.5 * thread, low - 0.7 * thread, low),
-        ]
-    )
+    heads = [hexagon(1.5 * thread, *ends) for ends in ((high, high + 0.7 * thread), (low - 0.7 * thread, low))]
+    one = merge([cylinder(thread / 2, low, high, 8), *heads])
     spots = np.column_stack([np.interp(where, walked, step[:, k]) for k in (0, 1)])
     return bolted(merge([moved(one, at(float(x), float(y))) for x, y in spots]))
 
 
 def lid_joint(
-    kind: str, a: float, b: float, seat: float, plate: float, style: ModelingStyle, rng: Rng
+    kind: str, a: float, b: float, seat: float, plate: float, style: ModelingStyle, rng: Rng | None = None
 ) -> tuple[Solid, Solid, Part]:
     """The body's collar below ``seat``, the lid's plate above it, and the bolts through both [m]."""
-    outline = plate_outline(kind, a, b, style.round(b))
+    edge = plate_outline(kind, a, b, style.round(b))
     thread = float(np.clip(0.14 * min(a, b), 0.006, 0.02))
     count = max(4, 2 * int((a + b) / (3.2 * thread) / 2))
-    bolts = bolts_on(outline, min(count, 16), seat - plate, seat + plate, thread)
-    return slab(outline, seat - plate, seat), slab(outline, seat, seat + plate), bolts
+    bolts = bolts_on(edge, min(count, 16), seat - plate, seat + plate, thread)
+    return slab(edge, seat - plate, seat), slab(edge, seat, seat + plate), bolts
+
+
+_FORMS = ("oval follower", "nut", "round follower", "lantern")
+
+
+class Packing(Params):
+    """A gland on z = 0 about a stem: an oval or round follower with its bolts, a nut, or a lantern."""
+
+    form: str = among(_FORMS, "how it is made")
+    turn: float = among(
+        (0.0, np.pi / 2), "of its bolts", "rad", when=lambda p: p.form == "oval follower", otherwise=0.0
+    )
+
+    def high(self, slim: float) -> float:
+        """Its height about a stem of a radius [m]."""
+        return {"oval follower": 2.1, "nut": 2.8, "round follower": 2.4, "lantern": 2.9}[self.form] * slim
+
+    def build(self, t: Table, slim: float) -> None:
+        """Puts it down about a stem of a radius [m]."""
+        n, t, both = max(12, t.style.round(2 * slim)), t.bundled(BODY), (-1, 1)
+        if self.form == "oval follower":
+            flat, t = slab(oval(4.6 * slim, 2.0 * slim, 16), 0.9 * slim, 1.7 * slim), t.spun("z", self.turn)
+            t.add("gland", flat, cylinder(1.5 * slim, 0.0, 2.1 * slim, n))
+            one = merge([cylinder(0.5 * slim, -1.5 * slim, 3.0 * slim, 8), hexagon(1.5 * slim, 1.7 * slim, 2.4 * slim)])
+            t.add("bolt", *(moved(one, at(s * 3.5 * slim)) for s in both))
+        elif self.form == "nut":
+            t.add("gland", hexagon(4.0 * slim, 0.0, 2.2 * slim), turned(scaled(slim, 1.9, 2.2, 1.4, 2.8), n))
+        elif self.form == "round follower":
+            t.add("gland", turned(scaled(slim, 3.4, 0.3, 3.4, 1.1, 1.6, 1.4, 1.5, 2.4), n))
+            t.add("bolt", around(hexagon(1.3 * slim, 1.0 * slim, 1.8 * slim), 4, 2.7 * slim))
+        else:
+            bar, x = box((8.0 * slim, 2.4 * slim, 0.9 * slim), (0, 0, 2.4 * slim)), 3.4 * slim
+            t.add("gland", bar, cylinder(1.6 * slim, 0.0, 2.0 * slim, n))
+            eyes = [rod((s * x, 0, -1.5 * slim), (s * x, 0, 3.6 * slim), 0.5 * slim, 8) for s in both]
+            t.add("bolt", *eyes, *(moved(hexagon(1.5 * slim, 2.85 * slim, 3.5 * slim), at(s * x)) for s in both))
+
+
+@cache
+def packings(*forms: str) -> type[Packing]:
+    """Glands of these forms."""
+
+    class Packings(Packing):
+        """A gland of some forms."""
+
+        form: str = among(forms, "how it is made")
+
+    return Packings
 
 
 def packing(slim: float, style: ModelingStyle, rng: Rng, kind: int = -1) -> tuple[list[Part], float]:
-    """A gland on z = 0 about a stem: an oval or round follower with its bolts, a nut, or a lantern; and its height."""
-    kind = int(rng.integers(4)) if kind < 0 else kind
-    n = max(12, style.round(2 * slim))
-    if kind == 0:
-        flat = oval(4.6 * slim, 2.0 * slim, 16)
-        follower = merge([slab(flat, 0.9 * slim, 1.7 * slim), cylinder(1.5 * slim, 0.0, 2.1 * slim, n)])
-        one = merge([cylinder(0.5 * slim, -1.5 * slim, 3.0 * slim, 8), hexagon(1.5 * slim, 1.7 * slim, 2.4 * slim)])
-        turn = spun("z", float(rng.choice([0.0, 0.5])) * np.pi)
-        bolts = merge([moved(one, at(s * 3.5 * slim)) for s in (-1, 1)])
-        return [trim(moved(follower, turn), "gland"), bolted(moved(bolts, turn))], 2.1 * slim
-    if kind == 1:
-        nut = merge(
-            [hexagon(4.0 * slim, 0.0, 2.2 * slim), turned([(1.9 * slim, 2.2 * slim), (1.4 * slim, 2.8 * slim)], n)]
-        )
-        return [trim(nut, "gland")], 2.8 * slim
-    if kind == 2:
-        follower = turned(
-            [(3.4 * slim, 0.3 * slim), (3.4 * slim, 1.1 * slim), (1.6 * slim, 1.4 * slim), (1.5 * slim, 2.4 * slim)], n
-        )
-        one = hexagon(1.3 * slim, 1.0 * slim, 1.8 * slim)
-        return [
-            trim(follower, "gland"),
-            bolted(merge([moved(one, spun("z", k * np.pi / 2) @ at(2.7 * slim)) for k in range(4)])),
-        ], 2.4 * slim
-    bar = box((8.0 * slim, 2.4 * slim, 0.9 * slim), (0, 0, 2.4 * slim))
-    eyes = merge(
-        [rod((s * 3.4 * slim, 0, -1.5 * slim), (s * 3.4 * slim, 0, 3.6 * slim), 0.5 * slim, 8) for s in (-1, 1)]
-    )
-    nuts = merge([moved(hexagon(1.5 * slim, 2.85 * slim, 3.5 * slim), at(s * 3.4 * slim)) for s in (-1, 1)])
-    follower = merge([bar, cylinder(1.6 * slim, 0.0, 2.0 * slim, n)])
-    return [trim(follower, "gland"), bolted(merge([eyes, nuts]))], 2.9 * slim
+    """A gland as finished parts, and its height [m]; ``kind``: which one, any if below 0."""
+    t, one = table_for(style), (packings(_FORMS[kind]) if kind >= 0 else Packing).draw(rng)
+    one.build(t, slim)
+    return t.parts, one.high(slim)
 
 
 def wedge(dn: int, x: float, thick: float, rise: float, style: ModelingStyle) -> Part:
@@ -189,18 +207,8 @@ def wedge(dn: int, x: float, thick: float, rise: float, style: ModelingStyle) ->
     bore = PIPES[dn].bore
     n = style.round(bore)
     slim = 0.42 * thick
-    disc = turned(
-        [
-            (0.5 * bore, -slim),
-            (0.9 * bore, -slim),
-            (0.95 * bore, -0.9 * slim),
-            (1.12 * bore, -0.55 * slim),
-            (1.12 * bore, 0.55 * slim),
-            (0.95 * bore, 0.9 * slim),
-            (0.5 * bore, slim),
-        ],
-        n,
-    )
+    side = outline(0.5, -1, 0.9, -1, 0.95, -0.9, 1.12, -0.55, 1.12, 0.55, 0.95, 0.9, 0.5, 1)
+    disc = turned([(r * bore, y * slim) for r, y in side], n)
     head = box((0.7 * thick, 0.5 * bore, 0.4 * bore), (0, 0, 1.2 * bore))
     return trim(moved(merge([along("x", disc), head]), at(x, 0, rise)), "valve disc")
 
@@ -223,53 +231,45 @@ def neck_of(dn: int) -> tuple[float, float]:
     return 0.485 * FLANGES[dn].hub, plate_thickness(dn)
 
 
-def blade(radius: float, style: ModelingStyle, rng: Rng) -> Solid:
-    """A butterfly's disc across x at the origin, its shaft along z: lens, ribbed dish, offset plate or lattice [m]."""
-    n, kind = max(16, style.round(radius)), int(rng.integers(5))
-    rim = 0.985 * radius
-    if kind == 0:
-        plate = turned(
-            [
-                (0.3 * radius, -0.11 * radius),
-                (0.8 * radius, -0.05 * radius),
-                (rim, -0.004),
-                (rim, 0.004),
-                (0.8 * radius, 0.05 * radius),
-                (0.3 * radius, 0.11 * radius),
-            ],
-            n,
-        )
-        solids = [along("x", plate)]
-    elif kind == 1:
-        plate = turned(
-            [(0.9 * rim, -0.06 * radius), (rim, -0.02 * radius), (rim, 0.05 * radius), (0.6 * radius, 0.06 * radius)], n
-        )
-        ribs = [
-            box((0.16 * radius, 0.05 * radius, 1.5 * radius * w), (0.1 * radius, y * radius, 0))
-            for y, w in ((-0.45, 0.9), (0.0, 1.1), (0.45, 0.9))
-        ]
-        solids = [along("x", plate), *ribs]
-    elif kind == 2:
-        plate = turned([(0.94 * rim, -0.09 * radius), (rim, -0.05 * radius), (0.93 * rim, 0.04 * radius)], n)
-        eyes = [
-            merge([cylinder(0.17 * radius, s * 0.5 * radius - 0.14 * radius, s * 0.5 * radius + 0.14 * radius, 12)])
-            for s in (-1, 1)
-        ]
-        solids = [along("x", plate), *(moved(eye, at(0.12 * radius)) for eye in eyes)]
-    elif kind == 3:
-        plate = along("x", slab(circle(rim, n), -0.03 * radius - 0.001, 0.03 * radius + 0.001))
-        clips = [
-            box((0.05 * radius, 0.18 * radius, 0.18 * radius), (0.15 * radius, 0, s * 0.5 * radius)) for s in (-1, 0, 1)
-        ]
-        solids = [plate, *clips]
-    else:
-        plate = along("x", turned([(0.97 * rim, -0.03 * radius), (rim, 0.0), (0.97 * rim, 0.03 * radius)], n))
-        solids = [plate, along("x", dome(0.7 * radius, 0.18 * radius, 0.02 * radius, n))]
-    stub = cylinder(0.1 * radius + 0.002, -0.9 * radius, 0.9 * radius, 12)
-    return merge([*solids, stub])
+class Blade(Params):
+    """A butterfly's disc across x at the origin, its shaft along z: lens, ribbed dish, offset plate or lattice."""
+
+    form: str = among(("lens", "ribbed dish", "offset", "plate", "domed"), "how it is made")
+
+    def solid(self, radius: float, style: ModelingStyle) -> Solid:
+        """The disc of a radius [m]."""
+        n, rim, thin = max(16, style.round(radius)), 0.985 * radius, 0.03 * radius
+        if self.form == "lens":
+            side = outline(0.3 * radius, -0.11 * radius, 0.8 * radius, -0.05 * radius, rim, -0.004)
+            solids = [along("x", turned([*side, *((r, -x) for r, x in side[::-1])], n))]
+        elif self.form == "ribbed dish":
+            side = outline(0.9 * rim, -0.06 * radius, rim, -0.02 * radius, rim, 0.05 * radius, 0.6 * radius, 2 * thin)
+            solids = [along("x", turned(side, n))]
+            for y, wide in ((-0.45, 0.9), (0.0, 1.1), (0.45, 0.9)):
+                rib = (0.16 * radius, 0.05 * radius, 1.5 * radius * wide)
+                solids.append(box(rib, (0.1 * radius, y * radius, 0)))
+        elif self.form == "offset":
+            side = outline(0.94 * rim, -0.09 * radius, rim, -0.05 * radius, 0.93 * rim, 0.04 * radius)
+            solids = [along("x", turned(side, n))]
+            for z in (-0.5 * radius, 0.5 * radius):
+                eye = cylinder(0.17 * radius, z - 0.14 * radius, z + 0.14 * radius, 12)
+                solids.append(moved(eye, at(0.12 * radius)))
+        elif self.form == "plate":
+            solids = [along("x", slab(circle(rim, n), -thin - 0.001, thin + 0.001))]
+            clip = (0.05 * radius, 0.18 * radius, 0.18 * radius)
+            solids += [box(clip, (0.15 * radius, 0, s * 0.5 * radius)) for s in (-1, 0, 1)]
+        else:
+            solids = [along("x", turned(outline(0.97 * rim, -thin, rim, 0, 0.97 * rim, thin), n))]
+            solids.append(along("x", dome(0.7 * radius, 0.18 * radius, 0.02 * radius, n)))
+        return merge([*solids, cylinder(0.1 * radius + 0.002, -0.9 * radius, 0.9 * radius, 12)])
 
 
-def turned_blade(radius: float, x: float, style: ModelingStyle, rng: Rng) -> list[Part]:
-    """A butterfly's disc at ``x``, open, half open or shut [m]."""
-    angle = float(rng.choice([0.0, 0.0, 0.5, 0.3, 0.15])) * np.pi
-    return [trim(moved(blade(radius, style, rng), at(x) @ spun("z", angle)), "valve disc")]
+class TurnedBlade(Params):
+    """A butterfly's disc, open, half open or shut."""
+
+    turn: float = among((0.0, 0.0, np.pi / 2, 0.3 * np.pi, 0.15 * np.pi), "from shut", "rad")
+    blade: Blade = nested(Blade, "disc")
+
+    def build(self, t: Table, radius: float) -> None:
+        """Puts it down, of a radius [m]."""
+        t.spun("z", self.turn).bundled(BODY).add("valve disc", self.blade.solid(radius, t.style))

@@ -2,372 +2,309 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
-from cadplants.families.valves.drive import drive, wheel
-from cadplants.families.valves.parts import (
-    BODY,
-    MID,
-    SMALL,
-    bend,
-    body,
-    bonnet,
-    chain,
-    cover,
-    hub_radius,
-    other,
-    piece,
-    screwed,
-    square,
-)
+from cadplants.builder.device import families_of
+from cadplants.builder.params import among, between, chance, nested, styled, whole
+from cadplants.builder.table import Table, outline
+from cadplants.families.valves.drive import Wheel, drive_of
+from cadplants.families.valves.parts import MID, SMALL, bend, chain, cover, hub_radius, screwed, square
 from cadplants.families.valves.threaded import hex_end
-from cadplants.families.valves.valve import flanged_body, valve_family
-from cadplants.family import Family, Model, Part, placed
-from cadplants.mesh_ops import Solid, extrude, merge, moved, tube
-from cadplants.modeling_style import ModelingStyle
+from cadplants.families.valves.valve import Valve, flanged_body
+from cadplants.family import Model
+from cadplants.mesh_ops import extrude, moved, tube
 from cadplants.polygon import circle, rounded_rectangle
 from cadplants.primitives import along, around, ball, box, cylinder, hexagon, ring, rod, rope, turned
-from cadplants.standards import FACE_TO_FACE, FLANGES, PIPES, SIZES
+from cadplants.standards import FACE_TO_FACE
 from cadplants.transforms import at, spun
 from cadplants.valve_body import bore_of
 
 __all__ = ["COCKS"]
 
+_ABOUT_LONG = "length / radius of the pipe, of a large one"
 
-def _angle_seat(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+
+class AngleSeat(Valve, name="angle seat valve/piston", sizes=SMALL):
     """An angle seat valve: a threaded or welded run, a slanting neck, a round piston actuator with a sight cap."""
-    r = PIPES[dn].radius
-    length = float(rng.uniform(4.6, 6.5)) * r + 0.035
-    core = [(1.05 * r, 0.12 * length), (1.3 * r, 0.35 * length), (1.3 * r, 0.65 * length), (1.05 * r, 0.88 * length)]
-    if rng.random() < 0.6:
-        run = screwed(dn, style, length, core, int(rng.choice([6, 8])))
-    else:
-        outline = [(1.0 * r, 0.0), *core, (1.0 * r, length)]
-        run = along("x", turned(outline, style.round(1.3 * r), bore=bore_of(dn, style)))
-    pose = at(0.5 * length) @ spun("y", float(rng.choice([-0.785, 0.785, 0.65])))
-    n, wide = style.round(1.6 * r), 1.15 * r + 0.002
-    neck = turned([(wide, 0.0), (wide, 2.2 * r), (0.85 * wide, 2.4 * r)], n)
-    parts = [body(run, moved(neck, pose))]
-    low = 2.4 * r
-    if rng.random() < 0.6:
+
+    long: float = between(4.6, 6.5, _ABOUT_LONG)
+    threaded: bool = chance(0.6, "its ends are threaded, not welded")
+    corners: int = among((6, 8), "corners of its wrench ends", when=lambda p: p.threaded, otherwise=0)
+    tilt: float = among((-0.785, 0.785, 0.65), "of its neck", "rad")
+    nutted: bool = chance(0.6, "a union nut on its neck")
+    rim: float = between(1.6, 2.4, "radius of its actuator / of the pipe, of a large one")
+    high: float = between(2.6, 4.0, "height of its actuator / radius of the pipe, of a large one")
+
+    def build(self, t: Table) -> Model:
+        r, style, whole_table = self.radius, t.style, t
+        length = self.long * r + 0.035
+        core = [(s * r, x * length) for s, x in outline(1.05, 0.12, 1.3, 0.35, 1.3, 0.65, 1.05, 0.88)]
+        if self.threaded:
+            run = screwed(self.dn, style, length, core, self.corners)
+        else:
+            side = [(r, 0.0), *core, (r, length)]
+            run = along("x", turned(side, style.round(1.3 * r), bore=bore_of(self.dn, style)))
+        pose = at(0.5 * length) @ spun("y", self.tilt)
+        n, wide, low = style.round(1.6 * r), 1.15 * r + 0.002, 2.4 * r
+        t.add("valve body", run, moved(turned(outline(wide, 0, wide, 2.2 * r, 0.85 * wide, low), n), pose))
+        t = t.moved(pose)
+        tall = 0.4 * r if self.nutted else 1.4 * r
         nut = hexagon(2.1 * wide, low - 0.5 * r, low + 0.3 * r)
-        tall = 0.4 * r
-    else:
-        nut, tall = turned([(0.6 * wide, low - 0.001), (0.6 * wide, low + 1.4 * r)], n), 1.4 * r
-    parts.append(bonnet(moved(nut, pose)))
-    base, rim, high = (
-        low + 0.8 * tall,
-        float(rng.uniform(1.6, 2.4)) * r + 0.012,
-        float(rng.uniform(2.6, 4.0)) * r + 0.03,
-    )
-    m = style.round(rim)
-    can = [
-        (0.7 * rim, base),
-        (rim, base + 0.12 * high),
-        (rim, base + 0.5 * high),
-        (1.04 * rim, base + 0.5 * high),
-        (1.04 * rim, base + 0.58 * high),
-        (rim, base + 0.58 * high),
-        (0.95 * rim, base + 0.9 * high),
-        (0.55 * rim, base + high),
-    ]
-    ports = [
-        along(
-            "y",
-            merge([cylinder(0.008, 0.8 * rim, 1.05 * rim + 0.004, 10), hexagon(0.014, rim, rim + 0.012)]),
-            0,
-            0,
-            base + k * high,
-        )
-        for k in (0.22, 0.75)
-    ]
-    parts.append(piece("actuator", moved(merge([turned(can, m), *ports]), pose), color="rubber", bundle="actuator"))
-    cap = turned(
-        [(0.3 * rim, base + high - 0.002), (0.28 * rim, base + 1.12 * high), (0.15 * rim, base + 1.17 * high)], 12
-    )
-    parts.append(piece("position indicator", moved(cap, pose), color="dial", bundle="actuator"))
-    parts.append(piece("valve stem", moved(cylinder(0.25 * r, 0.0, base + 0.01, 8), pose)))
-    return Model(parts, round(length, 6), "welded", "angle seat valve")
+        t.add("valve bonnet", nut if self.nutted else cylinder(0.6 * wide, low - 0.001, low + 1.4 * r, n))
+        base, rim, high = low + 0.8 * tall, self.rim * r + 0.012, self.high * r + 0.03
+        can = outline(0.7, 0, 1, 0.12, 1, 0.5, 1.04, 0.5, 1.04, 0.58, 1, 0.58, 0.95, 0.9, 0.55, 1)
+        solids = [turned([(s * rim, base + z * high) for s, z in can], style.round(rim))]
+        port = cylinder(0.008, 0.8 * rim, 1.05 * rim + 0.004, 10), hexagon(0.014, rim, rim + 0.012)
+        solids += [along("y", one, 0, 0, base + k * high) for k in (0.22, 0.75) for one in port]
+        act = t.bundled("actuator")
+        act.add("actuator", *solids, of="rubber")
+        cap = outline(0.3 * rim, base + high - 0.002, 0.28 * rim, base + 1.12 * high, 0.15 * rim, base + 1.17 * high)
+        act.add("position indicator", turned(cap, 12), of="dial")
+        t.add("valve stem", cylinder(0.25 * r, 0.0, base + 0.01, 8))
+        return whole_table.model(round(length, 6), "welded", "angle seat valve")
 
 
-def _solenoid(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class Solenoid(Valve, name="solenoid valve/flanged", sizes=tuple(dn for dn in MID if dn <= 100)):
     """A flanged solenoid valve: globe body, square or round piston cover, coil with cable plug on or beside it."""
-    length, r = FACE_TO_FACE["globe"][dn], PIPES[dn].radius
-    wide, neck = 1.3 * r + 0.008, hub_radius(dn)
-    wide = max(wide, 1.03 * neck)
-    shell = flanged_body(dn, style, length, [(wide, 0.35 * length), (wide, 0.65 * length)])
-    x, n = length / 2, style.round(wide)
-    seat, plate = max(1.15 * wide, 0.45 * FLANGES[dn].outer), 0.012 + 0.15 * r
-    chest = cylinder(0.9 * wide, 0.3 * wide, seat - 0.003, n)
-    parts = [
-        body(shell, moved(chest, at(x))),
-        *placed(cover(1.15 * wide + 0.006, seat, plate, 6, style, bool(rng.integers(2))), at(x)),
-    ]
-    top, size = seat + plate, float(rng.uniform(0.018, 0.03)) + 0.1 * r
-    px = x if rng.random() < 0.6 else x + 0.5 * wide
-    tube_ = cylinder(0.3 * size, top - 0.001, top + 2.4 * size, 12)
-    if rng.random() < 0.5:
-        coil = cylinder(size, top + 0.4 * size, top + 2.1 * size, style.round(size))
-    else:
-        coil = square(0.95 * size, top + 0.4 * size, top + 2.0 * size)
-    plug = [
-        box((0.8 * size, 0.8 * size, 0.8 * size), (1.3 * size, 0, top + 1.2 * size)),
-        along("x", hexagon(0.5 * size, 1.6 * size, 2.1 * size), 0, 0, top + 1.2 * size),
-    ]
-    cable = bend(
-        [(2.05 * size, 0, top + 1.2 * size), (3.5 * size, 0, top + 1.2 * size), (3.5 * size, 0, top + 4 * size)], size
-    )
-    parts += [
-        piece("valve stem", moved(tube_, at(px))),
-        piece("actuator", moved(merge([coil, *plug]), at(px)), color="rubber", bundle="actuator"),
-    ]
-    if rng.random() < 0.5:
-        parts.append(other("Electrical and safety", "cable", "rubber", moved(rope(cable, 0.004, 8), at(px))))
-    parts.append(
-        Part(
-            moved(hexagon(0.9 * size, top + 2.0 * size, top + 2.25 * size), at(px)),
-            "nut",
-            "fastener",
-            "actuator",
-            "Connection assembly",
-            True,
-        )
-    )
-    return Model(parts, length, kind="solenoid valve")
+
+    square: bool = among((False, True), "its cover is square, not round")
+    size: float = between(0.018, 0.03, "radius of its coil, of a small pipe", "m")
+    middle: bool = chance(0.6, "the coil stands on its middle, not beside it")
+    round: bool = chance(0.5, "its coil is round, not square")
+    wired: bool = chance(0.5, "a cable comes to it")
+
+    def build(self, t: Table) -> Model:
+        length, r, style, whole_table = FACE_TO_FACE["globe"][self.dn], self.radius, t.style, t
+        wide, x = max(1.3 * r + 0.008, 1.03 * hub_radius(self.dn)), length / 2
+        shell = flanged_body(self.dn, style, length, [(wide, 0.35 * length), (wide, 0.65 * length)])
+        seat, plate = max(1.15 * wide, 0.45 * t.flange.outer), 0.012 + 0.15 * r
+        t.add("valve body", shell, along("z", cylinder(0.9 * wide, 0.3 * wide, seat - 0.003, style.round(wide)), x))
+        t.at(x).extend(cover(1.15 * wide + 0.006, seat, plate, 6, style, self.square))
+        top, s, t = seat + plate, self.size + 0.1 * r, t.at(x if self.middle else x + 0.5 * wide)
+        z, far, act = top + 1.2 * s, top + 4 * s, t.bundled("actuator")
+        t.add("valve stem", cylinder(0.3 * s, top - 0.001, top + 2.4 * s, 12))
+        coil = square(0.95 * s, top + 0.4 * s, top + 2.0 * s)
+        if self.round:
+            coil = cylinder(s, top + 0.4 * s, top + 2.1 * s, style.round(s))
+        plug = box((0.8 * s, 0.8 * s, 0.8 * s), (1.3 * s, 0, z))
+        act.add("actuator", coil, plug, along("x", hexagon(0.5 * s, 1.6 * s, 2.1 * s), 0, 0, z), of="rubber")
+        if self.wired:
+            t.add("cable", rope(bend([(2.05 * s, 0, z), (3.5 * s, 0, z), (3.5 * s, 0, far)], s), 0.004, 8))
+        act.add("nut", hexagon(0.9 * s, top + 2.0 * s, top + 2.25 * s))
+        return whole_table.model(length, kind="solenoid valve")
 
 
-def _mini(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class Mini(Valve, name="ball valve/mini", sizes=tuple(dn for dn in SMALL if dn <= 25)):
     """A mini ball valve of hexagon or square bar with a one-sided plastic key, a screwdriver slot or a T key."""
-    r = PIPES[dn].radius
-    length, half = float(rng.uniform(3.0, 4.2)) * r + 0.018, 1.25 * r + 0.002
-    x, n = length / 2, style.round(r)
-    holes = (circle(0.98 * r, max(8, n)),) if style.hollow else ()
-    kind = int(rng.integers(3))
-    if kind == 0:
-        bar = along("x", extrude(circle(half / np.cos(np.pi / 6), 6, phase=np.pi / 6), 0.0, length, holes))
-    elif kind == 1:
-        bar = along("x", extrude(rounded_rectangle(2 * half, 2 * half, 0.25 * half, 2), 0.0, length, holes))
-    else:
-        bar = merge(
-            [
-                hex_end(dn, 0.0, 0.5 * length, style),
-                along("x", ring(0.98 * r if style.hollow else 0.0, 1.2 * half, 0.35 * length, 0.6 * length, n)),
-                along("x", ring(0.98 * r if style.hollow else 0.0, 1.1 * r, 0.6 * length, length, n)),
-            ]
-        )
-        x = 0.46 * length
-    neck, top = 0.5 * r + 0.002, 1.25 * half + 0.003
-    parts = [body(bar, moved(cylinder(neck, 0.9 * half if kind < 2 else half, top, 12), at(x)))]
-    turn = at(x, 0, top) @ spun("z", float(rng.choice([0.0, 1.5708, 3.1416])))
-    design, long, key = int(rng.integers(3)), 1.8 * half + 0.012, 0.45 * half + 0.003
-    if design == 0:
-        grip = [
-            cylinder(1.1 * key, 0, 0.8 * key, 12),
-            box((long, 1.3 * key, 0.7 * key), (0.4 * long, 0, 0.45 * key)),
-            box((0.3 * long, 1.7 * key, 0.8 * key), (0.75 * long, 0, 0.45 * key)),
-        ]
-    elif design == 1:
-        grip = [cylinder(0.8 * key, 0, key, 12), box((0.5 * key, 1.6 * long, 1.8 * key), (0, 0, 1.6 * key))]
-    else:
-        grip = [cylinder(1.3 * key, 0, 0.5 * key, 12), box((0.3 * key, 2.2 * key, 0.7 * key), (0, 0, 0.5 * key))]
-    parts.append(piece("valve stem", moved(cylinder(0.5 * neck, -0.003, 0.4 * key, 8), turn)))
-    parts.append(piece("lever", moved(merge(grip), turn), color="handle", bundle=""))
-    return Model(parts, round(length, 6), "welded", "ball valve")
+
+    long: float = between(3.0, 4.2, _ABOUT_LONG)
+    form: str = among(("hexagon", "square", "round"), "form of its body")
+    turn: float = among((0.0, 1.5708, 3.1416), "where its key points, from along the run", "rad")
+    key: str = among(("one-sided", "T", "slot"), "what turns it")
+
+    def build(self, t: Table) -> Model:
+        r, style, hollow, whole_table = self.radius, t.style, t.style.hollow, t
+        length, half, n = self.long * r + 0.018, 1.25 * r + 0.002, t.style.round(r)
+        x, holes, inner = length / 2, (circle(0.98 * r, max(8, n)),) if hollow else (), 0.98 * r if hollow else 0.0
+        low = 0.9 * half
+        if self.form == "hexagon":
+            edge = circle(half / np.cos(np.pi / 6), 6, phase=np.pi / 6)
+            solids = [along("x", extrude(edge, 0.0, length, holes))]
+        elif self.form == "square":
+            edge = rounded_rectangle(2 * half, 2 * half, 0.25 * half, 2)
+            solids = [along("x", extrude(edge, 0.0, length, holes))]
+        else:
+            solids = [hex_end(self.dn, 0.0, 0.5 * length, style)]
+            solids.append(along("x", ring(inner, 1.2 * half, 0.35 * length, 0.6 * length, n)))
+            solids.append(along("x", ring(inner, 1.1 * r, 0.6 * length, length, n)))
+            x, low = 0.46 * length, half
+        neck, top = 0.5 * r + 0.002, 1.25 * half + 0.003
+        t.add("valve body", *solids, along("z", cylinder(neck, low, top, 12), x))
+        t, long, k = t.at(x, 0, top).spun("z", self.turn), 1.8 * half + 0.012, 0.45 * half + 0.003
+        if self.key == "one-sided":
+            grip = [cylinder(1.1 * k, 0, 0.8 * k, 12), box((long, 1.3 * k, 0.7 * k), (0.4 * long, 0, 0.45 * k))]
+            grip.append(box((0.3 * long, 1.7 * k, 0.8 * k), (0.75 * long, 0, 0.45 * k)))
+        elif self.key == "T":
+            grip = [cylinder(0.8 * k, 0, k, 12), box((0.5 * k, 1.6 * long, 1.8 * k), (0, 0, 1.6 * k))]
+        else:
+            grip = [cylinder(1.3 * k, 0, 0.5 * k, 12), box((0.3 * k, 2.2 * k, 0.7 * k), (0, 0, 0.5 * k))]
+        t.add("valve stem", cylinder(0.5 * neck, -0.003, 0.4 * k, 8))
+        t.add("lever", *grip)
+        return whole_table.model(round(length, 6), "welded", "ball valve")
 
 
-def _gas_cock(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class GasCock(Valve, name="plug valve/gas cock", sizes=SMALL):
     """A taper plug cock for gas (EN 331 forerunner): waisted body, plug through it, wing or square head, nut below."""
-    r = PIPES[dn].radius
-    length = float(rng.uniform(4.2, 5.4)) * r + 0.025
-    n, wide, x = style.round(1.3 * r), 1.25 * r + 0.003, length / 2
-    core = [(1.1 * r, 0.15 * length), (0.95 * r, 0.3 * length), (0.95 * r, 0.7 * length), (1.1 * r, 0.85 * length)]
-    chest = turned([(0.9 * wide, -1.35 * wide), (1.12 * wide, 1.35 * wide)], n)
-    parts = [body(screwed(dn, style, length, core), moved(chest, at(x)))]
-    below = [
-        cylinder(0.7 * wide, -1.45 * wide, -1.34 * wide, n),
-        hexagon(0.9 * wide, -1.8 * wide, -1.44 * wide),
-        cylinder(0.25 * wide, -2.0 * wide, -1.7 * wide, 8),
-    ]
-    parts.append(Part(moved(merge(below), at(x)), "nut", "fastener", BODY, "Connection assembly"))
-    top = 1.34 * wide
-    plug = turned([(0.85 * wide, top), (0.75 * wide, top + 0.3 * wide), (0.4 * wide, top + 0.5 * wide)], n)
-    parts.append(piece("valve disc", moved(plug, at(x))))
-    turn, high = at(x) @ spun("z", float(rng.choice([0.0, 1.5708]))), top + 0.45 * wide
-    kind = int(rng.integers(3))
-    if kind == 0:
-        reach = float(rng.uniform(1.6, 2.4)) * wide
-        shape = np.array(
-            [
-                [-0.35 * wide, 0],
-                [0.35 * wide, 0],
-                [0.45 * wide, 0.3 * wide],
-                [reach, 0.55 * wide],
-                [reach, 1.2 * wide],
-                [0.3 * wide, 0.95 * wide],
-                [-0.3 * wide, 0.95 * wide],
-                [-reach, 1.2 * wide],
-                [-reach, 0.55 * wide],
-                [-0.45 * wide, 0.3 * wide],
-            ]
-        )
-        grip = moved(extrude(shape, -0.13 * wide, 0.13 * wide), at(0, 0, high) @ spun("x", np.pi / 2))
-        parts.append(piece("lever", moved(grip, turn), color="handle", bundle=""))
-    elif kind == 1:
-        parts.append(
-            piece("valve stem", moved(box((0.7 * wide, 0.7 * wide, 0.9 * wide), (0, 0, high + 0.44 * wide)), turn))
-        )
-    else:
-        bar = rod((-0.5 * wide, 0, high + 0.35 * wide), (4.5 * wide, 0, high + 0.6 * wide), 0.22 * wide, 8)
-        eye = cylinder(0.6 * wide, high - 0.002, high + 0.7 * wide, 12)
-        parts.append(piece("lever", moved(merge([bar, eye]), turn), color="handle", bundle=""))
-    return Model(parts, round(length, 6), "welded", "plug valve")
+
+    long: float = between(4.2, 5.4, _ABOUT_LONG)
+    turn: float = among((0.0, 1.5708), "where its key points, from along the run", "rad")
+    key: str = among(("wings", "square", "bar"), "what turns it")
+    reach: float = between(1.6, 2.4, "of a wing / radius of its chest", when=lambda p: p.key == "wings")
+
+    def build(self, t: Table) -> Model:
+        r, whole_table = self.radius, t
+        length, n, w = self.long * r + 0.025, t.style.round(1.3 * r), 1.25 * r + 0.003
+        core = [(s * r, x * length) for s, x in outline(1.1, 0.15, 0.95, 0.3, 0.95, 0.7, 1.1, 0.85)]
+        chest = turned(outline(0.9 * w, -1.35 * w, 1.12 * w, 1.35 * w), n)
+        t.add("valve body", screwed(self.dn, t.style, length, core), moved(chest, at(length / 2)))
+        t, top = t.at(length / 2), 1.34 * w
+        below = [cylinder(0.7 * w, -1.45 * w, -1.34 * w, n), hexagon(0.9 * w, -1.8 * w, -1.44 * w)]
+        t.add("nut", *below, cylinder(0.25 * w, -2.0 * w, -1.7 * w, 8), own=True, fine=False)
+        t.add("valve disc", turned(outline(0.85 * w, top, 0.75 * w, top + 0.3 * w, 0.4 * w, top + 0.5 * w), n))
+        t = t.at(0, 0, top + 0.45 * w).spun("z", self.turn)
+        if self.key == "wings":
+            right = outline(0.35, 0, 0.45, 0.3, self.reach, 0.55, self.reach, 1.2, 0.3, 0.95)
+            edge = np.array([(-0.35, 0), *right, *((-x, z) for x, z in right[:0:-1])]) * w
+            t.add("lever", moved(extrude(edge, -0.13 * w, 0.13 * w), spun("x", np.pi / 2)))
+        elif self.key == "square":
+            t.add("valve stem", box((0.7 * w, 0.7 * w, 0.9 * w), (0, 0, 0.44 * w)))
+        else:
+            bar = rod((-0.5 * w, 0, 0.35 * w), (4.5 * w, 0, 0.6 * w), 0.22 * w, 8)
+            t.add("lever", bar, cylinder(0.6 * w, -0.002, 0.7 * w, 12))
+        return whole_table.model(round(length, 6), "welded", "plug valve")
 
 
-def _stop_cock(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class StopCock(Valve, name="globe valve/stop cock", sizes=SMALL):
     """A stop cock (EN 1213): round body with compression nuts or wrench ends, headwork with crutch or cross head."""
-    r = PIPES[dn].radius
-    length = float(rng.uniform(4.6, 6.0)) * r + 0.03
-    n, wide, x = style.round(1.4 * r), 1.4 * r + 0.003, length / 2
-    core = [(1.05 * r, 0.12 * length), (wide, 0.4 * length), (wide, 0.6 * length), (1.05 * r, 0.88 * length)]
-    parts = [body(screwed(dn, style, length, core, end=0.16 * length))]
-    if rng.random() < 0.5:
-        for low in (0.02 * length, 0.86 * length):
-            nut = along("x", hexagon(3.0 * r + 0.004, low, low + 0.12 * length))
-            parts.append(other("Pipe assembly", "union", "valve", nut, own=True))
-    pose = at(x) @ spun("y", float(rng.choice([0.0, 0.0, 0.7])))
-    neck, low = cylinder(0.75 * wide, 0.0, 1.4 * wide, n), 1.4 * wide
-    head = [hexagon(1.5 * wide, low - 0.1 * wide, low + 0.5 * wide), cylinder(0.5 * wide, low, low + 1.1 * wide, n)]
-    nut = hexagon(0.9 * wide, low + 1.05 * wide, low + 1.5 * wide)
-    top = low + 1.5 * wide
-    parts += [body(moved(neck, pose)), bonnet(moved(merge(head), pose)), piece("gland", moved(nut, pose))]
-    parts.append(piece("valve stem", moved(cylinder(0.2 * wide, top - 0.001, top + 1.0 * wide, 8), pose)))
-    z, reach, kind = top + 0.9 * wide, float(rng.uniform(1.2, 1.7)) * wide, int(rng.integers(3))
-    if kind == 0:
-        grip = [
-            rod((-reach, 0, z), (reach, 0, z), 0.2 * wide, 8),
-            cylinder(0.35 * wide, z - 0.4 * wide, z + 0.1 * wide, 10),
-        ]
-    elif kind == 1:
-        arms = [
-            rod((0, 0, z), (reach * np.cos(a), reach * np.sin(a), z), 0.16 * wide, 8) for a in np.arange(4) * np.pi / 2
-        ]
-        knobs = around(ball(0.26 * wide, 10), 4, reach)
-        grip = [
-            *arms,
-            moved(knobs, at(0, 0, z)),
-            turned([(0.4 * wide, z - 0.4 * wide), (0.5 * wide, z + 0.1 * wide), (0.3 * wide, z + 0.3 * wide)], 12),
-        ]
-    else:
-        angles = np.linspace(0, 2 * np.pi, 24, endpoint=False)
-        lobed = (reach * (0.85 + 0.15 * np.cos(3 * angles)))[:, None] * np.column_stack(
-            [np.cos(angles), np.sin(angles)]
-        )
-        grip = [
-            extrude(lobed, z - 0.2 * wide, z + 0.4 * wide),
-            cylinder(0.4 * wide, z - 0.5 * wide, z - 0.15 * wide, 12),
-        ]
-    parts.append(
-        piece("handwheel", moved(merge(grip), pose @ spun("z", float(rng.uniform(0, 3)))), color="handle", bundle="")
-    )
-    return Model(parts, round(length, 6), "welded", "globe valve")
+
+    long: float = between(4.6, 6.0, _ABOUT_LONG)
+    nutted: bool = chance(0.5, "compression nuts at its ends")
+    tilt: float = among((0.0, 0.0, 0.7), "of its head", "rad")
+    reach: float = between(1.2, 1.7, "radius of what turns it / of its body")
+    key: str = among(("crutch", "cross", "knob"), "what turns it")
+    turn: float = between(0, 3, "how far that is turned", "rad")
+
+    def build(self, t: Table) -> Model:
+        r, whole_table = self.radius, t
+        length, n, w = self.long * r + 0.03, t.style.round(1.4 * r), 1.4 * r + 0.003
+        end = 1.05 * r
+        core = outline(end, 0.12 * length, w, 0.4 * length, w, 0.6 * length, end, 0.88 * length)
+        t.add("valve body", screwed(self.dn, t.style, length, core, end=0.16 * length))
+        for x in (0.02 * length, 0.86 * length) if self.nutted else ():
+            t.add("union", along("x", hexagon(3.0 * r + 0.004, x, x + 0.12 * length)), of="valve", own=True)
+        t, low, top = t.at(length / 2).spun("y", self.tilt), 1.4 * w, 1.4 * w + 1.5 * w
+        t.add("valve body", cylinder(0.75 * w, 0.0, 1.4 * w, n))
+        head = hexagon(1.5 * w, low - 0.1 * w, low + 0.5 * w)
+        t.add("valve bonnet", head, cylinder(0.5 * w, low, low + 1.1 * w, n))
+        t.add("gland", hexagon(0.9 * w, low + 1.05 * w, low + 1.5 * w))
+        t.add("valve stem", cylinder(0.2 * w, top - 0.001, top + 1.0 * w, 8))
+        reach, z = self.reach * w, top + 0.9 * w
+        if self.key == "crutch":
+            grip = [rod((-reach, 0, z), (reach, 0, z), 0.2 * w, 8), cylinder(0.35 * w, z - 0.4 * w, z + 0.1 * w, 10)]
+        elif self.key == "cross":
+            ways = [(reach * np.cos(a), reach * np.sin(a), z) for a in np.arange(4) * np.pi / 2]
+            grip = [rod((0, 0, z), way, 0.16 * w, 8) for way in ways]
+            grip.append(moved(around(ball(0.26 * w, 10), 4, reach), at(0, 0, z)))
+            grip.append(turned(outline(0.4 * w, z - 0.4 * w, 0.5 * w, z + 0.1 * w, 0.3 * w, z + 0.3 * w), 12))
+        else:
+            a = np.linspace(0, 2 * np.pi, 24, endpoint=False)
+            edge = (reach * (0.85 + 0.15 * np.cos(3 * a)))[:, None] * np.column_stack([np.cos(a), np.sin(a)])
+            grip = [extrude(edge, z - 0.2 * w, z + 0.4 * w), cylinder(0.4 * w, z - 0.5 * w, z - 0.15 * w, 12)]
+        t.spun("z", self.turn).add("handwheel", *grip)
+        return whole_table.model(round(length, 6), "welded", "globe valve")
 
 
-def _drain(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class Drain(Valve, name="drain valve/hose tail", place="tap"):
     """A boiler drain cock on an outlet: squat body, square key or lever, ribbed hose tail with a cap on a chain."""
-    r, n = float(rng.uniform(0.009, 0.014)), 12
-    low = 0.014
-    chest = [
-        cylinder(0.85 * r, 0.0, 0.02, n),
-        hexagon(2.5 * r, low, low + 1.1 * r),
-        turned([(1.1 * r, low + r), (1.6 * r, low + 2.0 * r), (1.6 * r, low + 3.2 * r), (1.1 * r, low + 3.8 * r)], n),
-    ]
-    z = low + 2.6 * r
-    way = spun("x", float(rng.uniform(-0.5, 0.15)))
-    tail = [(1.0 * r, 1.2 * r), (1.0 * r, 2.2 * r)]
-    for k in range(int(rng.integers(3, 6))):
-        tail += [(1.15 * r, 2.2 * r + 0.8 * k * r), (0.85 * r, 3.0 * r + 0.8 * k * r - 0.02 * r)]
-    chest.append(moved(along("y", turned(tail, n)), at(0, 0, z) @ way))
-    parts = [body(*chest)]
-    top = low + 3.8 * r
-    kind = int(rng.integers(3))
-    if kind == 0:
-        parts.append(piece("valve stem", box((1.1 * r, 1.1 * r, 1.6 * r), (0, 0, top + 0.78 * r))))
-    else:
-        parts.append(piece("gland", hexagon(1.6 * r, top - 0.001, top + 0.8 * r)))
-        parts += drive(0.0, top + 0.8 * r, 0.8 * r, style, rng, ("lever", "bar") if kind == 1 else ("wing",))
-    if rng.random() < 0.6:
-        far = tail[-1][1]
-        cap = moved(along("y", turned([(1.25 * r, far - 0.3 * r), (1.25 * r, far + 1.2 * r)], n)), at(0, 0, z) @ way)
-        end = (moved(Solid(np.array([[0, far, 1.2 * r]]), np.zeros((0, 3), np.int32)), at(0, 0, z) @ way)).vertices[0]
-        parts.append(bonnet(cap, chain((0, 1.5 * r, low + 2.4 * r), end, 1.6 * r, 0.0009)))
-    return Model(parts, kind="drain valve")
+
+    size: float = between(0.009, 0.014, "half its width", "m")
+    tilt: float = between(-0.5, 0.15, "of its hose tail, upward", "rad")
+    ribs: int = whole(3, 5, "ribs of its hose tail")
+    key: str = among(("square", "lever", "wing"), "what turns it")
+    lever: Any = drive_of("lever", "bar", radius=lambda p: 0.8 * p.size, when=lambda p: p.key == "lever")
+    wing: Any = drive_of("wing", radius=lambda p: 0.8 * p.size, when=lambda p: p.key == "wing")
+    capped: bool = chance(0.6, "a cap on a chain on its hose tail")
+
+    def build(self, t: Table) -> Model:
+        r, n, low = self.size, 12, 0.014
+        z, top, chest = low + 2.6 * r, low + 3.8 * r, outline(1.1 * r, low + r, 1.6 * r, low + 2.0 * r)
+        tail = outline(r, 1.2 * r, r, 2.2 * r)
+        for k in range(self.ribs):
+            tail += outline(1.15 * r, 2.2 * r + 0.8 * k * r, 0.85 * r, 3.0 * r + 0.8 * k * r - 0.02 * r)
+        far, pose = tail[-1][1], at(0, 0, z) @ spun("x", self.tilt)
+        solids = [cylinder(0.85 * r, 0.0, 0.02, n), hexagon(2.5 * r, low, low + 1.1 * r)]
+        solids.append(turned([*chest, (1.6 * r, low + 3.2 * r), (1.1 * r, top)], n))
+        t.add("valve body", *solids, moved(along("y", turned(tail, n)), pose))
+        if self.key == "square":
+            t.add("valve stem", box((1.1 * r, 1.1 * r, 1.6 * r), (0, 0, top + 0.78 * r)))
+        else:
+            t.add("gland", hexagon(1.6 * r, top - 0.001, top + 0.8 * r))
+            (self.lever or self.wing).build(t.at(0, 0, top + 0.8 * r))
+        if self.capped:
+            cap = moved(along("y", cylinder(1.25 * r, far - 0.3 * r, far + 1.2 * r, n)), pose)
+            end = tuple(map(float, (pose @ (0.0, far, 1.2 * r, 1.0))[:3]))
+            t.add("valve bonnet", cap, chain((0, 1.5 * r, low + 2.4 * r), end, 1.6 * r, 0.0009))
+        return t.model(kind="drain valve")
 
 
-def _gauge_valve(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class MultiportRoot(Valve, name="needle valve/multiport", place="tap"):
     """A gauge root valve on an outlet: a tall multiport bar with plugs, its bonnet aside with a T bar, a capped top."""
-    r = float(rng.uniform(0.010, 0.015))
-    tall = float(rng.uniform(7.0, 11.0)) * r
-    square_ = bool(rng.integers(2))
-    bar = square(1.25 * r, 0.014, 0.014 + tall) if square_ else hexagon(2.5 * r, 0.014, 0.014 + tall)
-    parts = [body(bar, cylinder(0.85 * r, 0.0, 0.016, 12))]
-    top = 0.014 + tall
-    ways = {"x": 0.62, "-x": 0.62, "y": 0.85, "-y": 0.85}
-    for way, share in list(ways.items())[: int(rng.integers(1, 5))]:
-        plug = merge([hexagon(1.4 * r, 1.05 * r, 1.7 * r), cylinder(0.6 * r, r, 1.2 * r, 10)])
-        parts.append(bonnet(along(way, plug, 0, 0, 0.014 + share * tall)))
-    pose = at(0, 0, 0.014 + 0.3 * tall) @ spun("y", float(rng.choice([0.5, 0.32])) * np.pi)
-    head = [hexagon(1.9 * r, 1.1 * r, 2.6 * r), cylinder(0.7 * r, 2.5 * r, 4.2 * r, 12)]
-    stalk = [cylinder(0.32 * r, 4.1 * r, 6.4 * r, 8)]
-    parts += [
-        bonnet(moved(merge(head), pose)),
-        piece("gland", moved(hexagon(1.1 * r, 3.9 * r, 4.5 * r), pose)),
-        piece("valve stem", moved(merge(stalk), pose)),
-    ]
-    grip = (
-        drive(0.0, 5.8 * r, r, style, rng, ("bar",))
-        if rng.random() < 0.6
-        else [wheel(0.012 + 1.4 * r, 0, 5.6 * r, style, rng)]
-    )
-    parts += placed(grip, pose)
-    parts.append(bonnet(hexagon(2.0 * r, top - 0.001, top + 0.9 * r), cylinder(1.0 * r, top, top + 1.2 * r, 12)))
-    return Model(parts, kind="needle valve")
+
+    size: float = between(0.010, 0.015, "half its width", "m")
+    tall: float = between(7.0, 11.0, "height of its bar / half its width")
+    square: bool = among((False, True), "its bar is square, not hexagonal")
+    plugs: int = whole(1, 4, "plugs in its ports")
+    tilt: float = among((0.5 * np.pi, 0.32 * np.pi), "of its bonnet, from upright", "rad")
+    barred: bool = chance(0.6, "a T bar turns it, not a handwheel")
+    bar: Any = drive_of("bar", radius=lambda p: p.size, when=lambda p: p.barred)
+    wheel: Wheel = nested(Wheel, "handwheel", when=lambda p: not p.barred)
+
+    def build(self, t: Table) -> Model:
+        r, tall = self.size, self.tall * self.size
+        top = 0.014 + tall
+        bar = square(1.25 * r, 0.014, top) if self.square else hexagon(2.5 * r, 0.014, top)
+        t.add("valve body", bar, cylinder(0.85 * r, 0.0, 0.016, 12))
+        for way, share in (("x", 0.62), ("-x", 0.62), ("y", 0.85), ("-y", 0.85))[: self.plugs]:
+            plug = hexagon(1.4 * r, 1.05 * r, 1.7 * r), cylinder(0.6 * r, r, 1.2 * r, 10)
+            t.at(0, 0, 0.014 + share * tall).along(way).add("valve bonnet", *plug)
+        side = t.at(0, 0, 0.014 + 0.3 * tall).spun("y", self.tilt)
+        side.add("valve bonnet", hexagon(1.9 * r, 1.1 * r, 2.6 * r), cylinder(0.7 * r, 2.5 * r, 4.2 * r, 12))
+        side.add("gland", hexagon(1.1 * r, 3.9 * r, 4.5 * r))
+        side.add("valve stem", cylinder(0.32 * r, 4.1 * r, 6.4 * r, 8))
+        if self.barred:
+            self.bar.build(side.at(0, 0, 5.8 * r))
+        else:
+            self.wheel.build(side, 0.012 + 1.4 * r, 5.6 * r)
+        t.add("valve bonnet", hexagon(2.0 * r, top - 0.001, top + 0.9 * r), cylinder(1.0 * r, top, top + 1.2 * r, 12))
+        return t.model(kind="needle valve")
 
 
-def _needle_angle(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class NeedleAngle(Valve, name="needle valve/angle", place="tap"):
     """An angle needle valve on an outlet: a forged or bar elbow, bonnet upright, a tube from its side."""
-    r = float(rng.uniform(0.008, 0.013))
-    n, z = 12, 0.012 + 2.2 * r
-    if rng.random() < 0.5:
-        core = box((2.4 * r, 2.4 * r, 3.6 * r), (0, 0, z))
-    else:
-        core = merge(
-            [cylinder(1.35 * r, 0.012, z + 1.8 * r, style.round(1.35 * r)), moved(ball(1.6 * r, 12), at(0, 0, z))]
-        )
-    side = along("y", merge([cylinder(0.9 * r, 0.8 * r, 2.2 * r, n), hexagon(2.1 * r, 2.0 * r, 3.4 * r)]), 0, 0, z)
-    parts = [body(cylinder(0.85 * r, 0, 0.02, n), core, side)]
-    top = z + 1.8 * r
-    parts.append(
-        bonnet(hexagon(2.0 * r, top - 0.001, top + 1.2 * r), cylinder(0.75 * r, top + 1.1 * r, top + 2.6 * r, n))
-    )
-    parts.append(piece("gland", hexagon(1.4 * r, top + 2.5 * r, top + 3.2 * r)))
-    parts.append(piece("valve stem", cylinder(0.33 * r, top + 3.1 * r, top + 5.4 * r, 8)))
-    if rng.random() < 0.5:
-        parts.append(wheel(0.012 + float(rng.uniform(1.4, 2.2)) * r, 0, top + 4.6 * r, style, rng))
-    else:
-        parts += drive(0.0, top + 5.0 * r, r, style, rng, ("bar",))
-    far, rise = float(rng.uniform(0.08, 0.2)), float(rng.choice([-0.15, 0.15, 0.25]))
-    path = bend([(0, 3.2 * r, z), (0, far, z), (0, far, z + rise), (far, far, z + rise)], 0.02)
-    parts.append(other("Pipe assembly", "pipe", "pipe", tube(path, 0.5 * r, 0.35 * r if style.hollow else 0.0, n)))
-    return Model(parts, kind="needle valve")
+
+    hollow: bool = styled(True, "whether insides are modelled")
+    size: float = between(0.008, 0.013, "half its width", "m")
+    square: bool = chance(0.5, "its body is of square bar, not forged")
+    wheeled: bool = chance(0.5, "a handwheel turns it, not a T bar")
+    rim: float = between(1.4, 2.2, "radius of its handwheel / half its width", when=lambda p: p.wheeled)
+    wheel: Wheel = nested(Wheel, "handwheel", when=lambda p: p.wheeled)
+    bar: Any = drive_of("bar", radius=lambda p: p.size, when=lambda p: not p.wheeled)
+    far: float = between(0.08, 0.2, "reach of its tube", "m")
+    rise: float = among((-0.15, 0.15, 0.25), "of its tube", "m")
+
+    def build(self, t: Table) -> Model:
+        r, n, z = self.size, 12, 0.012 + 2.2 * self.size
+        core = [box((2.4 * r, 2.4 * r, 3.6 * r), (0, 0, z))]
+        if not self.square:
+            core = [cylinder(1.35 * r, 0.012, z + 1.8 * r, t.style.round(1.35 * r))]
+            core.append(moved(ball(1.6 * r, 12), at(0, 0, z)))
+        side = [cylinder(0.9 * r, 0.8 * r, 2.2 * r, n), hexagon(2.1 * r, 2.0 * r, 3.4 * r)]
+        t.add("valve body", cylinder(0.85 * r, 0, 0.02, n), *core, *(along("y", one, 0, 0, z) for one in side))
+        top = z + 1.8 * r
+        head = cylinder(0.75 * r, top + 1.1 * r, top + 2.6 * r, n)
+        t.add("valve bonnet", hexagon(2.0 * r, top - 0.001, top + 1.2 * r), head)
+        t.add("gland", hexagon(1.4 * r, top + 2.5 * r, top + 3.2 * r))
+        t.add("valve stem", cylinder(0.33 * r, top + 3.1 * r, top + 5.4 * r, 8))
+        if self.wheeled:
+            self.wheel.build(t, 0.012 + self.rim * r, top + 4.6 * r)
+        else:
+            self.bar.build(t.at(0, 0, top + 5.0 * r))
+        far, up = self.far, z + self.rise
+        path = bend([(0, 3.2 * r, z), (0, far, z), (0, far, up), (far, far, up)], 0.02)
+        t.add("pipe", tube(path, 0.5 * r, 0.35 * r if self.hollow else 0.0, n))
+        return t.model(kind="needle valve")
 
 
-COCKS: tuple[Family, ...] = (
-    valve_family("angle seat valve/piston", _angle_seat, SMALL),
-    valve_family("solenoid valve/flanged", _solenoid, tuple(dn for dn in MID if dn <= 100)),
-    valve_family("ball valve/mini", _mini, tuple(dn for dn in SMALL if dn <= 25)),
-    valve_family("plug valve/gas cock", _gas_cock, SMALL),
-    valve_family("globe valve/stop cock", _stop_cock, SMALL),
-    valve_family("drain valve/hose tail", _drain, SIZES, "tap"),
-    valve_family("needle valve/multiport", _gauge_valve, SIZES, "tap"),
-    valve_family("needle valve/angle", _needle_angle, SIZES, "tap"),
-)
+COCKS = families_of(AngleSeat, Solenoid, Mini, GasCock, StopCock, Drain, MultiportRoot, NeedleAngle)

@@ -2,256 +2,222 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
-from cadplants.families.valves.actuation_base import hand_wheel, indicator, shaft
-from cadplants.families.valves.actuation_stroke import LINEAR, linear, yoke_arms
-from cadplants.families.valves.body import (
-    ended,
-    lid_joint,
-    metal,
-    neck_of,
-    packing,
-    room,
-    trim,
-)  # fmt: skip
-from cadplants.families.valves.globe import globe_body, globe_plug
+from cadplants.builder.device import families_of
+from cadplants.builder.params import Params, among, between, chance, nested, styled, whole
+from cadplants.builder.table import Table, outline
+from cadplants.families.valves.actuation_base import INDICATORS, STEMS, put_indicator, put_stem
+from cadplants.families.valves.actuation_hand import Handwheel, wheels
+from cadplants.families.valves.actuation_stroke import STROKES, Yoke, linear_of
+from cadplants.families.valves.base import HOLLOW, lying, sized
+from cadplants.families.valves.body import Packing, ended, lid_joint, neck_of, room
+from cadplants.families.valves.globe import GlobeBody, globe_plug
 from cadplants.families.valves.threaded import hex_end
-from cadplants.families.valves.valve import disc_flange, valve_family
-from cadplants.family import Family, Model, Part, placed
-from cadplants.mesh_ops import Solid, about_x, merge, moved
-from cadplants.modeling_style import ModelingStyle
-from cadplants.primitives import (
-    along,
-    ball,
-    cylinder,
-    dome,
-    hexagon,
-    ring,
-    turned,
-)  # fmt: skip
-from cadplants.standards import FACE_TO_FACE, FLANGES, PIPES, SIZES
+from cadplants.families.valves.valve import Valve, disc_flange
+from cadplants.family import Model
+from cadplants.mesh_ops import Solid, moved
+from cadplants.primitives import AXES, along, ball, cylinder, dome, hexagon, ring, turned
+from cadplants.standards import FACE_TO_FACE
 from cadplants.transforms import at, spun
 
 __all__ = ["CONTROLS"]
 
-Rng = np.random.Generator
+_ENDS = "how it is joined to the pipe"
+_JOINT = "outline of the bonnet's joint"
 
 
-def _finned(throat: float, low: float, high: float, n: int, rng: Rng) -> Solid:
-    """An extended bonnet: plain for cold service, finned for hot, or ringed [m]."""
-    slim, kind = 0.6 * throat, int(rng.integers(3))
-    solids = [turned([(slim, low - 0.002), (slim, high)], n)]
-    if kind:
-        count = int(rng.integers(4, 9))
-        wide = throat * float(rng.uniform(0.85, 1.05))
-        solids += [
-            ring(0.9 * slim, wide, z, z + 0.35 * (high - low) / count, n)
-            for z in np.linspace(low + 0.08 * (high - low), 0.88 * high + 0.12 * low, count)
-        ]
-    return merge(solids)
+class _Control(Valve):
+    """A control valve in a line."""
+
+    def done(self, t: Table, length: float, ends: str, kind: str = "control valve") -> Model:
+        """What was put down, as a valve in a line."""
+        return t.model(round(length, 6), "flanged" if ends == "flanged" else "welded", kind)
 
 
-def _cage(dn: int, style: ModelingStyle, rng: Rng) -> Model:
+class _Neck(Params):
+    """An extended bonnet: plain for cold service, finned for hot, or ringed."""
+
+    form: str = among(("plain", "finned", "ringed"), "how it is made")
+    count: int = whole(4, 8, "fins", when=lambda p: p.form != "plain")
+    wide: float = between(0.85, 1.05, "radius of the fins / of the throat", when=lambda p: p.form != "plain")
+
+    def solids(self, throat: float, low: float, high: float, n: int) -> list[Solid]:
+        """The bonnet about z between two heights [m]."""
+        slim, tall = 0.6 * throat, high - low
+        spots = np.linspace(low + 0.08 * tall, 0.88 * high + 0.12 * low, self.count)
+        fins = [ring(0.9 * slim, throat * self.wide, z, z + 0.35 * tall / self.count, n) for z in spots]
+        return [cylinder(slim, low - 0.002, high, n), *fins]
+
+
+class Cage(_Control, name="control valve/cage", weight=2):
     """A cage-guided control valve: heavy body, studded bonnet plain, finned or extended, any actuator (IEC 60534)."""
-    radius, ends = PIPES[dn].radius, str(rng.choice(["flanged", "flanged", "flanged", "butt"]))
-    length, x = FACE_TO_FACE["globe"][dn] * float(rng.choice([1.0, 1.1])), FACE_TO_FACE["globe"][dn] / 2
-    x, throat = length / 2, float(rng.uniform(1.25, 1.5)) * radius + 0.008
-    seat = max(room(dn) * 0.9, 1.8 * radius + 0.02)
-    plate, half = 0.012 + 0.12 * radius, throat * 1.35 + 0.01
-    collar, lid, bolts = lid_joint(str(rng.choice(["round", "round", "octagon"])), half, half, seat, plate, style, rng)
-    n, slim = max(16, style.round(throat)), 0.006 + 0.08 * radius
-    top = seat + plate
-    high = top + float(rng.choice([0.6, 0.8, 2.5, 4.0])) * radius + 0.015
-    hood = merge(
-        [lid, _finned(throat, top, high, n, rng), turned([(2.8 * slim, high - 0.004), (2.8 * slim, high + 0.02)], n)]
-    )
-    body = merge([globe_body(dn, style, rng, length, ends, seat, throat), moved(collar, at(x))])
-    parts = [metal(body), trim(hood, "valve bonnet", x, "valve"), *placed([bolts], at(x))]
-    gland, _ = packing(slim, style, rng)
-    parts += placed(gland, at(x, 0, high + 0.02))
-    parts += linear(x, high, radius, style, rng)
-    if style.hollow:
-        bore = PIPES[dn].bore
-        cage = ring(0.95 * bore, 1.1 * bore, 0.0, 1.4 * bore, n)
-        parts += [
-            trim(cage, "valve body", x),
-            trim(globe_plug(0.9 * bore, 2, style, float(rng.uniform(0, 0.7)) * bore), "valve disc", x),
-        ]
-        parts.append(trim(cylinder(slim, 0.5 * bore, high, 10), "valve stem", x))
-    return Model(parts, round(length, 6), "flanged" if ends == "flanged" else "welded", "control valve")
+
+    hollow: bool = styled(True, HOLLOW)
+    ends: str = among(("flanged", "flanged", "flanged", "butt"), _ENDS)
+    long: float = among((1.0, 1.1), "length / that of a globe valve")
+    throat: float = between(1.25, 1.5, "radius of the neck / of the pipe")
+    joint: str = among(("round", "round", "octagon"), _JOINT)
+    high: float = among((0.6, 0.8, 2.5, 4.0), "height of the bonnet / radius of the pipe")
+    neck: _Neck = nested(_Neck, "bonnet")
+    body: GlobeBody = nested(GlobeBody, "body")
+    gland: Packing = nested(Packing, "gland of the stem")
+    actuator: Any = linear_of()
+    lift: float = between(0, 0.7, "of the plug / radius of the bore", when=lambda p: p.hollow)
+
+    def build(self, t: Table) -> Model:
+        r, length, throat = t.pipe.radius, FACE_TO_FACE["globe"][t.dn] * self.long, self.throat * t.pipe.radius + 0.008
+        seat, plate, half = max(room(t.dn) * 0.9, 1.8 * r + 0.02), 0.012 + 0.12 * r, throat * 1.35 + 0.01
+        collar, lid, bolts = lid_joint(self.joint, half, half, seat, plate, t.style)
+        n, slim, top, up = t.n(throat, 16), 0.006 + 0.08 * r, seat + plate, t.at(length / 2)
+        high = top + self.high * r + 0.015
+        run = self.body.solid(t.dn, t.style, length, self.ends, seat, throat)
+        t.add("valve body", run, moved(collar, at(length / 2)))
+        crown = cylinder(2.8 * slim, high - 0.004, high + 0.02, n)
+        up.add("valve bonnet", lid, *self.neck.solids(throat, top, high, n), crown)
+        up.extend([bolts])
+        self.gland.build(up.at(0, 0, high + 0.02), slim)
+        self.actuator.build(up.at(0, 0, high))
+        if self.hollow:
+            bore = t.pipe.bore
+            up.add("valve body", ring(0.95 * bore, 1.1 * bore, 0.0, 1.4 * bore, n), of="trim")
+            up.add("valve disc", globe_plug(0.9 * bore, 2, t.style, self.lift * bore))
+            up.add("valve stem", cylinder(slim, 0.5 * bore, high, 10))
+        return self.done(t, length, self.ends)
 
 
-def _control_angle(dn: int, style: ModelingStyle, rng: Rng) -> Model:
+class Angle(Valve, name="control valve/angle", place="head", sizes=sized(15, 200)):
     """An angle control valve: inlet from below, outlet to the side, bonnet with any linear actuator above."""
-    radius, size = PIPES[dn].radius, FLANGES[dn]
-    centre, big = 0.55 * size.outer + 0.05, float(rng.uniform(1.3, 1.6)) * radius + 0.008
-    n = max(16, style.round(big))
-    outlet = moved(along("y", moved(disc_flange(dn, style, centre), at(0, 0, -centre))), at(centre))
-    throat, plate = 1.2 * radius + 0.006, 0.01 + 0.1 * radius
-    seat = centre + max(0.52 * size.outer, 1.6 * radius)
-    half = 1.4 * throat + 0.008
-    collar, lid, bolts = lid_joint(str(rng.choice(["round", "square", "octagon"])), half, half, seat, plate, style, rng)
-    if rng.random() < 0.5:
-        middle = turned(
-            [
-                (0.9 * radius, centre - 1.3 * big),
-                (big, centre - 0.7 * big),
-                (big, centre + 0.9 * big),
-                (throat, centre + 1.2 * big),
-                (throat, seat),
-            ],
-            n,
-        )
-    else:
-        middle = merge([moved(ball(big, n), at(0, 0, centre)), cylinder(throat, centre, seat, n)])
-    top = seat + plate
-    high = top + float(rng.uniform(0.5, 2.5)) * radius + 0.01
-    upright = [
-        trim(merge([lid, _finned(throat, top, high, n, rng)]), "valve bonnet", 0.0, "valve"),
-        bolts,
-        *linear(0.0, high, radius, style, rng),
-    ]
-    body = merge([about_x(merge([disc_flange(dn, style, centre), middle, collar])), outlet])
-    lying = [Part(about_x(p.solid), p.name, p.color, p.bundle, p.group, p.fine) for p in upright]
-    return Model([metal(body), *lying], kind="control valve")
 
+    belly: float = between(1.3, 1.6, "radius of the body / of the pipe")
+    joint: str = among(("round", "square", "octagon"), _JOINT)
+    tapered: bool = chance(0.5, "the body tapers, rather than being a ball")
+    high: float = between(0.5, 2.5, "height of the bonnet / radius of the pipe")
+    neck: _Neck = nested(_Neck, "bonnet")
+    actuator: Any = linear_of()
 
-def _short_piston(
-    z: float, reach: float, slim: float, radius: float, n: int, style: ModelingStyle, rng: Rng
-) -> list[Part]:
-    """A short piston actuator with its air ports and a clear sight dome, its stem from ``reach`` up [m]."""
-    half, long = 0.02 + float(rng.uniform(0.8, 1.3)) * radius, 0.04 + float(rng.uniform(1.4, 2.2)) * radius
-    kind = int(rng.integers(3))
-    can = turned(
-        [
-            (0.45 * half, z),
-            (half, z + 0.15 * half),
-            (half, z + long),
-            (0.92 * half, z + long + 0.12 * half),
-            (0.4 * half, z + long + 0.3 * half),
-        ],
-        n,
-    )
-    if kind == 1:
-        can = turned(
-            [
-                (0.6 * half, z),
-                (0.6 * half, z + 0.1 * long),
-                (half, z + 0.12 * long),
-                (half, z + 0.3 * long),
-                (0.93 * half, z + 0.32 * long),
-                (0.93 * half, z + long),
-                (0.4 * half, z + long + 0.08 * long),
-            ],
-            n,
-        )
-    if kind == 2:
-        can = merge([can, ring(0.95 * half, 1.06 * half, z + 0.45 * long, z + 0.6 * long, n)])
-    ports = merge(
-        [
-            moved(along("x", hexagon(0.018, 0.85 * half, 1.15 * half + 0.008)), at(0, 0, z + f * long))
-            for f in (0.3, 0.7)
-        ]
-    )
-    rest = [Part(merge([can, ports]), "actuator", "clamp", "actuator"), shaft(reach, z + 0.02, slim, style)]
-    sight = merge(
-        [
-            cylinder(0.2 * half, z + long, z + long + 0.45 * half, 12),
-            dome(0.2 * half, 0.2 * half, z + long + 0.45 * half, 12),
-        ]
-    )
-    rest.append(Part(sight, "position indicator", "dial", "actuator"))
-    return rest
-
-
-def _angle_seat(dn: int, style: ModelingStyle, rng: Rng) -> Model:
-    """An angle-seat valve: an oblique bonnet that carries a short piston actuator with a clear dome, or a wheel."""
-    radius, ends = PIPES[dn].radius, str(rng.choice(["hex", "octagon", "butt", "flanged"]))
-    length = (FACE_TO_FACE["globe"][dn] if ends == "flanged" else 0.045 + 4.2 * radius) * float(rng.uniform(0.95, 1.15))
-    neck, back = neck_of(dn) if ends == "flanged" else (1.1 * radius, 0.2 * length)
-    barrel = [
-        (neck, back),
-        (1.2 * radius + 0.002, back + 0.1 * length),
-        (1.2 * radius + 0.002, length - back - 0.1 * length),
-        (neck, length - back),
-    ]
-    tilt = float(rng.uniform(0.55, 0.85)) * float(rng.choice([1.0, 1.0, -1.0]))
-    way = at(0.5 * length - 0.15 * length * np.sign(tilt), 0, 0) @ spun("y", tilt)
-    n, throat = max(16, style.round(1.5 * radius)), 1.1 * radius + 0.003
-    reach = 2.1 * radius + 0.012 if ends != "flanged" else max(2.2 * radius, 0.75 * FLANGES[dn].outer)
-    arm = turned([(throat, 0.0), (throat, reach), (1.15 * throat, reach), (1.15 * throat, reach + 0.004)], n)
-    nut = (
-        hexagon(2.3 * throat, reach + 0.004, reach + 0.004 + 0.45 * radius)
-        if rng.random() < 0.6
-        else cylinder(1.2 * throat, reach + 0.004, reach + 0.01 + 0.2 * radius, n)
-    )
-    top = reach + 0.01 + 0.45 * radius
-    slim = 0.004 + 0.09 * radius
-    rest: list[Part] = [
-        trim(
-            merge([nut, turned([(0.7 * throat, top - 0.012), (0.5 * throat, top + 0.5 * radius)], n)]),
-            "valve bonnet",
-            0.0,
-            "valve",
-        )
-    ]
-    z = top + 0.5 * radius
-    if rng.random() < 0.7:
-        rest += _short_piston(z, reach, slim, radius, n, style, rng)
-    else:
-        rest += [
-            shaft(reach, z + 0.05 + 0.5 * radius, slim, style, rng),
-            hand_wheel(0.025 + 1.2 * radius, z + 0.01 + 0.3 * radius, style, rng, ("spoked", "lobed", "disc", "star")),
-        ]
-    parts = [metal(merge([ended(dn, style, length, barrel, ends), moved(arm, way)])), *placed(rest, way)]
-    if style.hollow:
-        parts += placed([trim(globe_plug(0.85 * PIPES[dn].bore, 0, style, 0.2 * radius), "valve disc")], way)
-    return Model(parts, round(length, 6), "flanged" if ends == "flanged" else "welded", "globe valve")
-
-
-def _heating(dn: int, style: ModelingStyle, rng: Rng) -> Model:
-    """A two-way or mixing valve of heating plants: compact iron or brass body, a small linear motor on a clamp yoke."""
-    radius, ends = PIPES[dn].radius, str(rng.choice(["flanged", "hex", "octagon"])) if dn <= 50 else "flanged"
-    length = FACE_TO_FACE["globe"][dn] * 0.9 if ends == "flanged" else 0.05 + 3.4 * radius
-    x, throat = length / 2, 0.9 * radius + 0.008
-    seat = max(room(dn) * 0.7, 1.8 * radius + 0.012) if ends == "flanged" else 1.9 * radius + 0.01
-    body = [globe_body(dn, style, rng, length, ends, seat, throat)]
-    if rng.random() < 0.5:
-        reach = 0.5 * length
-        if ends == "flanged":
-            body.append(moved(disc_flange(dn, style, reach - 0.6 * radius), at(x, 0, -reach)))
+    def build(self, t: Table) -> Model:
+        r, size, big = t.pipe.radius, t.flange.outer, self.belly * t.pipe.radius + 0.008
+        n, axis, throat, plate = t.n(big, 16), 0.55 * size + 0.05, 1.2 * r + 0.006, 0.01 + 0.1 * r
+        seat, half = axis + max(0.52 * size, 1.6 * r), 1.4 * throat + 0.008
+        collar, lid, bolts = lid_joint(self.joint, half, half, seat, plate, t.style)
+        flange = disc_flange(t.dn, t.style, axis)
+        if self.tapered:
+            marks = ((0.9 * r, -1.3 * big), (big, -0.7 * big), (big, 0.9 * big), (throat, 1.2 * big))
+            middle = [turned([*((a, axis + z) for a, z in marks), (throat, seat)], n)]
         else:
-            body.append(
-                moved(moved(hex_end(dn, 0.0, 0.3 * length, style), spun("y", np.pi / 2)), at(x, 0, -0.9 * radius - 0.0))
-            )
-    n = max(16, style.round(throat))
-    cap = merge(
-        [cylinder(1.15 * throat, seat - 0.003, seat + 0.012, n), hexagon(1.4 * throat, seat + 0.012, seat + 0.03)]
-    )
-    parts = [metal(merge(body)), trim(cap, "valve bonnet", x, "valve")]
-    z, tall = seat + 0.03, 0.05 + 0.6 * radius
-    half = 0.018 + 0.35 * radius
-    parts += placed(
-        [
-            yoke_arms(half, tall, style, rng, "actuator"),
-            shaft(-0.01, tall, 0.004 + 0.03 * radius, style),
-            *LINEAR["motor"](radius, tall, style, rng),
-        ],
-        at(x, 0, z),
-    )
-    if rng.random() < 0.4:
-        parts += placed([indicator(0.015, style, rng, 3)], at(x, -half - 0.0, z + 0.5 * tall) @ spun("x", np.pi / 2))
-    return Model(parts, round(length, 6), "flanged" if ends == "flanged" else "welded", "control valve")
+            middle = [moved(ball(big, n), at(0, 0, axis)), cylinder(throat, axis, seat, n)]
+        outlet = moved(flange, at(0, 0, axis) @ AXES["x"] @ spun("z", np.pi) @ at(0, 0, -axis))
+        t.add("valve body", flange, *middle, collar, outlet)
+        top = seat + plate
+        high = top + self.high * r + 0.01
+        t.add("valve bonnet", lid, *self.neck.solids(throat, top, high, n))
+        t.extend([bolts])
+        self.actuator.build(t.at(0, 0, high))
+        return lying(t, "control valve")
 
 
-_MID = tuple(dn for dn in SIZES if dn <= 200)
-_SMALL = tuple(dn for dn in SIZES if dn <= 65)
+class _ShortPiston(Params):
+    """A short piston actuator with its air ports and a clear sight dome."""
+
+    half: float = between(0.8, 1.3, "radius of the can / of the pipe")
+    long: float = between(1.4, 2.2, "length of the can / radius of the pipe")
+    shape: str = among(("plain", "stepped", "ringed"), "shape of the can")
+
+    def build(self, t: Table, low: float, slim: float) -> None:
+        """Puts it down on z = 0, its stem of a radius from a height up [m]."""
+        half, long, t = 0.02 + self.half * t.pipe.radius, 0.04 + self.long * t.pipe.radius, t.bundled("actuator")
+        n = t.n(1.5 * t.pipe.radius, 16)
+        if self.shape == "stepped":
+            marks = ((0.6, 0), (0.6, 0.1), (1, 0.12), (1, 0.3), (0.93, 0.32), (0.93, 1), (0.4, 1.08))
+            can = [turned([(a * half, z * long) for a, z in marks], n)]
+        else:
+            end = outline(0.92 * half, long + 0.12 * half, 0.4 * half, long + 0.3 * half)
+            can = [turned([*outline(0.45 * half, 0, half, 0.15 * half, half, long), *end], n)]
+        if self.shape == "ringed":
+            can.append(ring(0.95 * half, 1.06 * half, 0.45 * long, 0.6 * long, n))
+        port = hexagon(0.018, 0.85 * half, 1.15 * half + 0.008)
+        can += [along("x", port, 0, 0, f * long) for f in (0.3, 0.7)]
+        t.add("actuator", *can, of="clamp", own=True)
+        put_stem(t, low, 0.02, slim)
+        top, r = long + 0.45 * half, 0.2 * half
+        t.add("position indicator", cylinder(r, long, top, 12), dome(r, r, top, 12), of="dial", own=True)
 
 
-CONTROLS: tuple[Family, ...] = (
-    valve_family("control valve/cage", _cage, SIZES, weight=2),
-    valve_family("control valve/angle", _control_angle, _MID, "head"),
-    valve_family("control valve/heating", _heating, tuple(dn for dn in SIZES if dn <= 100)),
-    valve_family("angle seat valve/piston", _angle_seat, _SMALL, weight=1.5),
-)
+class AngleSeat(_Control, name="angle seat valve/piston", sizes=sized(15, 65), weight=1.5):
+    """An angle-seat valve: an oblique bonnet that carries a short piston actuator with a clear dome, or a wheel."""
+
+    ends: str = among(("hex", "octagon", "butt", "flanged"), _ENDS)
+    long: float = between(0.95, 1.15, "length / what is usual")
+    tilt: float = between(0.55, 0.85, "of the bonnet", "rad")
+    way: float = among((1.0, 1.0, -1.0), "which way the bonnet leans: 1 downstream, -1 upstream")
+    nut: bool = chance(0.6, "the bonnet is held by a nut")
+    powered: bool = chance(0.7, "a piston rather than a wheel")
+    piston: _ShortPiston = nested(_ShortPiston, "piston actuator", when=lambda p: p.powered)
+    stem: str = among(STEMS, "how the stem is made", when=lambda p: not p.powered, otherwise="plain")
+    wheel: Handwheel = nested(wheels("spoked", "lobed", "disc", "star"), "handwheel", when=lambda p: not p.powered)
+
+    def build(self, t: Table) -> Model:
+        r, flanged, tilt = t.pipe.radius, self.ends == "flanged", self.tilt * self.way
+        length = (FACE_TO_FACE["globe"][t.dn] if flanged else 0.045 + 4.2 * r) * self.long
+        neck, back = neck_of(t.dn) if flanged else (1.1 * r, 0.2 * length)
+        end, wide = back + 0.1 * length, 1.2 * r + 0.002
+        barrel = outline(neck, back, wide, end, wide, length - end, neck, length - back)
+        pose = at(0.5 * length - 0.15 * length * self.way) @ spun("y", tilt)
+        n, throat = t.n(1.5 * r, 16), 1.1 * r + 0.003
+        reach = max(2.2 * r, 0.75 * t.flange.outer) if flanged else 2.1 * r + 0.012
+        edge, low = 1.15 * throat, reach + 0.004
+        arm = turned(outline(throat, 0.0, throat, reach, edge, reach, edge, low), n)
+        t.add("valve body", ended(t.dn, t.style, length, barrel, self.ends), moved(arm, pose))
+        up, top, slim = t.moved(pose), reach + 0.01 + 0.45 * r, 0.004 + 0.09 * r
+        nut = cylinder(1.2 * throat, low, reach + 0.01 + 0.2 * r, n)
+        if self.nut:
+            nut = hexagon(2.3 * throat, low, low + 0.45 * r)
+        z = top + 0.5 * r
+        up.add("valve bonnet", nut, turned(outline(0.7 * throat, top - 0.012, 0.5 * throat, z), n))
+        if self.powered:
+            self.piston.build(up.at(0, 0, z), reach - z, slim)
+        else:
+            put_stem(up, reach, z + 0.05 + 0.5 * r, slim, self.stem)
+            self.wheel.build(up, 0.025 + 1.2 * r, z + 0.01 + 0.3 * r)
+        if t.style.hollow:
+            up.add("valve disc", globe_plug(0.85 * t.pipe.bore, 0, t.style, 0.2 * r))
+        return self.done(t, length, self.ends, "globe valve")
+
+
+class Heating(_Control, name="control valve/heating", sizes=sized(15, 100)):
+    """A two-way or mixing valve of heating plants: compact iron or brass body, a small linear motor on a clamp yoke."""
+
+    ends: str = among(("flanged", "hex", "octagon"), _ENDS, when=lambda p: p.dn <= 50, otherwise="flanged")
+    body: GlobeBody = nested(GlobeBody, "body")
+    mixing: bool = chance(0.5, "a third way below")
+    yoke: Yoke = nested(Yoke, "yoke")
+    motor: Any = nested(STROKES["motor"], "what lifts the stem")
+    shown: bool = chance(0.4, "shows the position aside")
+    indicator: str = among(INDICATORS[:3], "what shows the position", when=lambda p: p.shown)
+
+    def build(self, t: Table) -> Model:
+        r, flanged, throat = t.pipe.radius, self.ends == "flanged", 0.9 * t.pipe.radius + 0.008
+        length = FACE_TO_FACE["globe"][t.dn] * 0.9 if flanged else 0.05 + 3.4 * r
+        seat = max(room(t.dn) * 0.7, 1.8 * r + 0.012) if flanged else 1.9 * r + 0.01
+        x, reach, n, half = length / 2, 0.5 * length, t.n(throat, 16), 0.018 + 0.35 * r
+        solids = [self.body.solid(t.dn, t.style, length, self.ends, seat, throat)]
+        if self.mixing and flanged:
+            solids.append(moved(disc_flange(t.dn, t.style, reach - 0.6 * r), at(x, 0, -reach)))
+        elif self.mixing:
+            solids.append(moved(hex_end(t.dn, 0.0, 0.3 * length, t.style), at(x, 0, -0.9 * r) @ spun("y", np.pi / 2)))
+        t.add("valve body", *solids)
+        up = t.at(x, 0, seat)
+        up.add("valve bonnet", cylinder(1.15 * throat, -0.003, 0.012, n), hexagon(1.4 * throat, 0.012, 0.03))
+        up, tall = up.at(0, 0, 0.03), 0.05 + 0.6 * r
+        self.yoke.build(up.bundled("actuator"), half, tall)
+        put_stem(up, -0.01, tall, 0.004 + 0.03 * r)
+        self.motor.build(up, r, tall)
+        if self.shown:
+            put_indicator(up.at(0, -half, 0.5 * tall).spun("x", np.pi / 2), 0.015, self.indicator)
+        return self.done(t, length, self.ends)
+
+
+CONTROLS = families_of(Cage, Angle, Heating, AngleSeat)

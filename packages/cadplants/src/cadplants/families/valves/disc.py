@@ -2,417 +2,308 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
-from cadplants.families.valves.actuation import quarter_turn
-from cadplants.families.valves.actuation_base import bolted, hand_lever, shaft
-from cadplants.families.valves.actuation_hand import slab, span
-from cadplants.families.valves.ball import clamped_ends, ferrule, part_ring
-from cadplants.families.valves.body import (
-    blade,
-    bolts_on,
-    ended,
-    metal,
-    neck_of,
-    packing,
-    plate_outline,
-    trim,
-    turned_blade,
-)
-from cadplants.family import Family, Model, Part, placed
+from cadgraph.model.scene import Floats
+from cadplants.builder.device import families_of
+from cadplants.builder.params import Params, among, between, chance, nested, styled
+from cadplants.builder.table import Table, outline
+from cadplants.families.valves.actuation import operator
+from cadplants.families.valves.actuation_base import put_stem
+from cadplants.families.valves.actuation_hand import Handlever, levers, slab, span
+from cadplants.families.valves.ball import ClampedEnds, ferrule, part_ring
+from cadplants.families.valves.body import Blade, Packing, TurnedBlade, bolts_on, ended, neck_of, plate_outline
+from cadplants.families.valves.valve import BIG, Valve
+from cadplants.family import Model
 from cadplants.flange import plate_thickness
 from cadplants.mesh_ops import Solid, about_x, merge, moved
-from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle
 from cadplants.primitives import along, around, box, cylinder, hexagon, ring, turned
-from cadplants.standards import FACE_TO_FACE, FLANGES, PIPES, SIZES
+from cadplants.standards import FACE_TO_FACE, PIPES, SIZES
 from cadplants.transforms import at, spun
 
 __all__ = ["DISCS"]
 
-Rng = np.random.Generator
+_BOTH = (-1, 1)
+_LARGE = tuple(dn for dn in SIZES if dn >= 50)
+_DISC = "disc"
 
 
-def _neck(low: float, high: float, slim: float, style: ModelingStyle, rng: Rng) -> tuple[Solid, Part]:
-    """A neck up to a mounting pad on ``high`` and the pad's bolts: slim, stout, oval or a two-storey yoke [m]."""
-    n = max(12, style.round(slim))
-    kind, t = int(rng.integers(3)), 0.008 + 0.1 * slim
-    outline = plate_outline(str(rng.choice(["square", "round", "octagon"])), 2.2 * slim, 2.2 * slim, n)
-    if kind == 0:
-        solids = [turned([(1.3 * slim, low), (slim, low + 0.3 * (high - low)), (slim, high - t)], n)]
-    elif kind == 1:
-        solids = [slab(rounded_rectangle(1.8 * slim, 2.6 * slim, 0.6 * slim, 3), low, high - t)]
-    else:
-        step = low + 0.45 * (high - low)
-        posts = [
-            box((0.5 * slim, 0.7 * slim, high - step), (0, s * 1.4 * slim, (high + step - t) / 2)) for s in (-1, 1)
-        ]
-        solids = [
-            turned([(1.3 * slim, low), (1.1 * slim, step), (1.9 * slim, step), (1.9 * slim, step + t)], n),
-            *posts,
-        ]
-    return merge([*solids, slab(outline, high - t, high)]), bolts_on(
-        outline, 4, high - t, high + 0.004, 0.006 + 0.08 * slim
-    )
+class _Neck(Params):
+    """A neck up to a mounting pad: slim, stout, or a two-storey yoke."""
 
+    form: str = among(("slim", "stout", "yoke"), "how it is made")
+    pad: str = among(("square", "round", "octagon"), "outline of its pad")
 
-def _triple(dn: int, style: ModelingStyle, rng: Rng) -> Model:
-    """A triple-offset butterfly valve: long double-flanged body (EN 558 series 14), bearing cover, gland, gear."""
-    radius, size, bore = PIPES[dn].radius, FLANGES[dn], PIPES[dn].bore
-    thick = plate_thickness(dn)
-    length = float(rng.choice([0.127 + 0.2 * radius * 2, 0.15 + 0.9 * radius]))
-    x, n = 0.45 * length, max(16, style.round(size.outer / 2))
-    wall = float(rng.uniform(1.12, 1.3)) * bore + 0.006
-    neck, _ = neck_of(dn)
-    wall = min(wall, 0.95 * neck + 0.01)
-    body = ended(
-        dn,
-        style,
-        length,
-        [(neck, thick), (wall, thick + 0.12 * length), (wall, length - thick - 0.12 * length), (neck, length - thick)],
-        "flanged",
-    )
-    slim, high = 0.16 * radius + 0.012, 0.5 * size.outer + float(rng.uniform(0.03, 0.1)) + 0.2 * radius
-    tower, bolts = _neck(0.9 * wall, high, slim, style, rng)
-    bottom = 0.5 * size.outer * float(rng.uniform(0.85, 1.05))
-    foot = [cylinder(1.2 * slim, -bottom, -0.9 * bore, 16), cylinder(1.8 * slim, -bottom - 0.012, -bottom, 16)]
-    cover = merge(
-        [
-            cylinder(1.8 * slim, -bottom - 0.026, -bottom - 0.012, 16),
-            around(hexagon(0.012, -bottom - 0.034, -bottom - 0.026), 4, 1.35 * slim),
-        ]
-    )
-    parts = [
-        metal(merge([body, moved(merge([tower, *foot]), at(x))])),
-        trim(cover, "valve bonnet", x, "valve"),
-        *placed([bolts], at(x)),
-    ]
-    gland, _ = packing(0.4 * slim, style, rng)
-    parts += placed([*gland, shaft(0.0, 0.05 + 0.2 * radius, 0.4 * slim, style)], at(x, 0, high))
-    if style.hollow:
-        parts += turned_blade(bore, x, style, rng)
-        parts.append(trim(about_x(ring(0.94 * bore, 0.999 * bore, x - 0.06 * bore, x + 0.06 * bore, n)), "valve body"))
-    if rng.random() < 0.4:
-        parts.append(
-            metal(
-                merge(
-                    [
-                        box((0.5 * length, 0.02, 0.35 * bottom), (length / 2, s * 0.6 * wall, -0.82 * bottom))
-                        for s in (-1, 1)
-                    ]
-                )
-            )
-        )
-    parts += quarter_turn(
-        x, high + 0.012, radius, style, rng, ("worm", "worm", "scotch", "multi-turn", "electrohydraulic", "rack")
-    )
-    return Model(parts, round(length, 6), kind="butterfly valve")
-
-
-def _waterworks(dn: int, style: ModelingStyle, rng: Rng) -> Model:
-    """A waterworks butterfly valve: ribbed double-flanged shell with bosses and feet, dished disc, gear (EN 593)."""
-    radius, size, bore = PIPES[dn].radius, FLANGES[dn], PIPES[dn].bore
-    length, thick = 0.13 + 0.45 * radius, plate_thickness(dn)
-    x, n = length / 2, max(16, style.round(size.outer / 2))
-    wall = 1.06 * bore + 0.008
-    neck, _ = neck_of(dn)
-    body = [
-        ended(
-            dn,
-            style,
-            length,
-            [(min(neck, 1.02 * wall), thick), (wall, 0.5 * length), (min(neck, 1.02 * wall), length - thick)],
-            "flanged",
-        )
-    ]
-    count, reach = int(rng.choice([4, 6, 8])), 0.44 * size.outer
-    rib = box(
-        (length - 1.6 * thick, 0.008 + 0.04 * radius, reach - 0.95 * wall), (length / 2, 0, (reach + 0.95 * wall) / 2)
-    )
-    body += [moved(rib, spun("x", (k + 0.5) * 2 * np.pi / count)) for k in range(count)]
-    if rng.random() < 0.5:
-        body.append(about_x(ring(0.96 * wall, 1.1 * wall, 0.42 * length, 0.58 * length, n)))
-    slim, side = 0.2 * radius + 0.014, float(rng.choice([0.0, 0.5, -0.5])) * np.pi
-    high = 0.52 * size.outer + 0.02
-    tower = [
-        turned(
-            [(1.6 * slim, 0.95 * wall), (1.3 * slim, high - 0.03), (2.0 * slim, high - 0.018), (2.0 * slim, high)], 20
-        )
-    ]
-    tower.append(
-        turned([(1.2 * slim, -0.48 * size.outer), (1.5 * slim, -0.46 * size.outer), (1.6 * slim, -0.95 * wall)], 20)
-    )
-    body.append(moved(merge(tower), at(x) @ spun("x", side)))
-    if rng.random() < 0.6:
-        body += [
-            box((0.02, 0.8 * size.outer * 0.7, 0.02), (sx, 0, -0.5 * size.outer + 0.01))
-            for sx in (thick / 2 + 0.006, length - thick / 2 - 0.006)
-        ]
-    rest = [shaft(0.0, 0.02, 0.5 * slim, style), bolted(around(hexagon(0.016, 0.0, 0.01), 4, 1.6 * slim, 0.7))]
-    upright = placed(
-        [
-            *rest,
-            *quarter_turn(0, 0.005, radius, style, rng, ("worm", "worm", "bevel", "multi-turn", "scotch", "lever")),
-        ],
-        at(0, 0, high),
-    )
-    parts = [metal(merge(body)), *placed(upright, at(x) @ spun("x", side))]
-    if style.hollow:
-        disc = moved(blade(bore, style, rng), spun("z", float(rng.choice([0.0, 0.4, 0.5])) * np.pi))
-        parts.append(trim(moved(disc, at(x) @ spun("x", side)), "valve disc"))
-    return Model(parts, round(length, 6), kind="butterfly valve")
-
-
-def _mono(dn: int, style: ModelingStyle, rng: Rng) -> Model:
-    """A mono-flange or U-section butterfly valve: one wide drilled plate round a rubber-lined ring (EN 593)."""
-    radius, size, bore = PIPES[dn].radius, FLANGES[dn], PIPES[dn].bore
-    length = FACE_TO_FACE["butterfly"][dn]
-    x, n = length / 2, max(16, style.round(size.outer / 2))
-    hole = (
-        ()
-        if not style.holes
-        else tuple(
-            circle(0.55 * size.bolt, 8, (size.circle / 2 * np.cos(t), size.circle / 2 * np.sin(t)))
-            for t in np.pi / size.n_bolts + np.arange(size.n_bolts) * 2 * np.pi / size.n_bolts
-        )
-    )
-    holes = (circle(1.1 * bore, n), *hole)
-    if rng.random() < 0.5:
-        plates = [along("x", slab(circle(size.outer / 2, n), 0.32 * length, 0.68 * length, holes))]
-    else:
-        thin = 0.22 * length
-        plates = [
-            along("x", slab(circle(size.outer / 2, n), z, z + thin, holes))
-            for z in (0.06 * length, 0.94 * length - thin)
-        ]
-    hub = about_x(ring(1.05 * bore, 0.47 * (size.circle - size.bolt), 0.04 * length, 0.96 * length, n))
-    liner = about_x(
-        part_ring(
-            [
-                (bore, 0.0),
-                (1.22 * bore, 0.0),
-                (1.22 * bore, 0.05 * length),
-                (1.06 * bore, 0.06 * length),
-                (1.06 * bore, 0.94 * length),
-                (1.22 * bore, 0.95 * length),
-                (1.22 * bore, length),
-                (bore, length),
-            ],
-            n,
-        )
-    )
-    slim, high = min(0.32 * length, 0.16 * radius + 0.012), 0.5 * size.outer + 0.035 + 0.3 * radius
-    tower, bolts = _neck(0.48 * size.outer, high, slim, style, rng)
-    parts = [
-        metal(merge([*plates, hub, moved(tower, at(x))])),
-        trim(liner, "valve body", 0.0, "rubber"),
-        *placed([bolts], at(x)),
-        *turned_blade(bore, x, style, rng),
-        *placed([shaft(0.0, 0.012, 0.45 * slim, style)], at(x, 0, high)),
-        *quarter_turn(x, high + 0.006, radius, style, rng, ("worm", "rack", "lever", "motor box", "scotch")),
-    ]
-    return Model(parts, length, "wafer", "butterfly valve")
-
-
-def _hygienic_drive(x: float, high: float, boss: float, radius: float, style: ModelingStyle, rng: Rng) -> list[Part]:
-    """A squeeze lever over its index plate, or an actuator [m]."""
-    parts: list[Part] = []
-    pick = rng.random()
-    if pick < 0.6:
-        reach = 0.09 + 1.3 * radius
-        index = trim(
-            merge(
-                [
-                    slab(circle(2.2 * boss, 16), high + 0.001, high + 0.004),
-                    *(
-                        box((0.004, 0.004, 0.006), (2.0 * boss * np.cos(t), 2.0 * boss * np.sin(t), high + 0.005))
-                        for t in np.linspace(0, 1.57, 4)
-                    ),
-                ]
-            ),
-            "position indicator",
-            x,
-        )
-        parts += [
-            index,
-            *placed([hand_lever(reach, high + 0.008, style, rng, ("notched", "notched", "sheet", "bar"))], at(x)),
-        ]
-    else:
-        parts += quarter_turn(x, high + 0.002, radius, style, rng, ("vertical", "vertical", "rack"))
-    return parts
-
-
-def _hygienic(dn: int, style: ModelingStyle, rng: Rng) -> Model:
-    """A hygienic butterfly valve: two polished halves, weld or clamp ends, a squeeze lever or a cylinder."""
-    radius, bore = PIPES[dn].radius, PIPES[dn].bore
-    clamped = rng.random() < 0.5
-    stub = 0.03 if clamped else 0.0
-    core = float(rng.choice([0.05, 0.075])) + 0.5 * radius
-    length, x = core + 2 * stub, core / 2 + stub
-    half, n = 0.012 + 0.08 * radius, max(16, style.round(1.4 * radius))
-    big = 1.3 * radius + 0.009
-    tube_ = []
-    for low, high, face in ((stub, x, True), (x, length - stub, False)):
-        if clamped:
-            tube_.append(ferrule(dn, low, high, style, face))
+    def solids(self, t: Table, low: float, high: float, slim: float) -> list[Solid]:
+        """The neck about z between two heights, of a radius [m]."""
+        n, thick = t.n(slim, 12), self.thick(slim)
+        if self.form == "slim":
+            solids = [turned(outline(1.3 * slim, low, slim, low + 0.3 * (high - low), slim, high - thick), n)]
+        elif self.form == "stout":
+            solids = [slab(rounded_rectangle(1.8 * slim, 2.6 * slim, 0.6 * slim, 3), low, high - thick)]
         else:
-            tube_.append(along("x", ring(bore if style.hollow else 0.0, radius, low, high, n)))
-    waist = about_x(
-        part_ring(
-            [
-                (0.98 * radius, x - half),
-                (0.85 * big, x - half),
-                (big, x - 0.7 * half),
-                (big, x - 0.08 * half),
-                (0.97 * big, x - 0.06 * half),
-                (0.97 * big, x + 0.06 * half),
-                (big, x + 0.08 * half),
-                (big, x + 0.7 * half),
-                (0.85 * big, x + half),
-                (0.98 * radius, x + half),
-            ],
-            n,
-        )
-    )
-    lugs = about_x(
-        around(
-            merge([cylinder(0.007, x - 1.0 * half, x + 1.0 * half, 12), hexagon(0.011, x + half, x + half + 0.005)]),
-            int(rng.choice([2, 4])),
-            1.02 * big,
-            np.pi / 4,
-        )
-    )
-    boss, high = 0.2 * radius + 0.007, big + 0.014
-    tower = cylinder(boss, 0.95 * radius, high, 16)
-    parts = [
-        metal(merge([*tube_, waist, moved(tower, at(x))]), 0.0, "clamp"),
-        bolted(lugs),
-        *placed([shaft(high - 0.004, high + 0.012, 0.6 * boss, style)], at(x)),
-    ]
-    if style.hollow:
-        parts += turned_blade(bore, x, style, rng)
-    if clamped:
-        parts += clamped_ends(dn, stub, length, style, rng)
-    parts += _hygienic_drive(x, high, boss, radius, style, rng)
-    return Model(parts, round(length, 6), "welded", "butterfly valve")
+            step, rim = low + 0.45 * (high - low), 1.9 * slim
+            solids = [turned(outline(1.3 * slim, low, 1.1 * slim, step, rim, step, rim, step + thick), n)]
+            post = (0.5 * slim, 0.7 * slim, high - step)
+            solids += [box(post, (0, s * 1.4 * slim, (high + step - thick) / 2)) for s in _BOTH]
+        return [*solids, slab(plate_outline(self.pad, 2.2 * slim, 2.2 * slim, n), high - thick, high)]
+
+    def thick(self, slim: float) -> float:
+        """Thickness of its pad [m]."""
+        return 0.008 + 0.1 * slim
+
+    def put_bolts(self, t: Table, high: float, slim: float) -> None:
+        """Puts down the pad's bolts [m]."""
+        edge = plate_outline(self.pad, 2.2 * slim, 2.2 * slim, t.n(slim, 12))
+        t.extend([bolts_on(edge, 4, high - self.thick(slim), high + 0.004, 0.006 + 0.08 * slim)])
 
 
-def _plastic(dn: int, style: ModelingStyle, rng: Rng) -> Model:
+class Triple(Valve, name="butterfly valve/triple offset", sizes=_LARGE):
+    """A triple-offset butterfly valve: long double-flanged body (EN 558 series 14), bearing cover, gland, gear."""
+
+    hollow: bool = styled(True, "whether insides are modelled")
+    form: str = among(("short", "long"), "its length")
+    wall: float = between(1.12, 1.3, "radius of its body / of its bore")
+    high: float = between(0.03, 0.1, "height of its pad over the flanges, of a small pipe", "m")
+    neck: _Neck = nested(_Neck, "neck")
+    bottom: float = between(0.85, 1.05, "depth of its foot / radius of the flanges")
+    gland: Packing = nested(Packing, "gland")
+    disc: TurnedBlade = nested(TurnedBlade, _DISC, when=lambda p: p.hollow)
+    footed: bool = chance(0.4, "two feet below it")
+    operator: Any = operator("worm", "worm", "scotch", "multi-turn", "electrohydraulic", "rack")
+
+    def build(self, t: Table) -> Model:
+        radius, size, bore, thick = self.radius, t.flange, t.pipe.bore, plate_thickness(self.dn)
+        length = 0.127 + 0.2 * radius * 2 if self.form == "short" else 0.15 + 0.9 * radius
+        x, n, neck = 0.45 * length, t.n(size.outer / 2, 16), neck_of(self.dn)[0]
+        wall, low = min(self.wall * bore + 0.006, 0.95 * neck + 0.01), thick + 0.12 * length
+        middle = outline(neck, thick, wall, low, wall, length - low, neck, length - thick)
+        slim, high = 0.16 * radius + 0.012, 0.5 * size.outer + self.high + 0.2 * radius
+        bottom, rim = 0.5 * size.outer * self.bottom, 1.8 * slim
+        tower = self.neck.solids(t, 0.9 * wall, high, slim)
+        tower += [cylinder(1.2 * slim, -bottom, -0.9 * bore, 16), cylinder(rim, -bottom - 0.012, -bottom, 16)]
+        t.add("valve body", ended(self.dn, t.style, length, middle, "flanged"), *(moved(one, at(x)) for one in tower))
+        screws = around(hexagon(0.012, -bottom - 0.034, -bottom - 0.026), 4, 1.35 * slim)
+        top = t.at(x, 0, high)
+        t.at(x).add("valve bonnet", cylinder(rim, -bottom - 0.026, -bottom - 0.012, 16), screws)
+        self.neck.put_bolts(t.at(x), high, slim)
+        self.gland.build(top, 0.4 * slim)
+        put_stem(top, 0.0, 0.05 + 0.2 * radius, 0.4 * slim)
+        if self.hollow:
+            self.disc.build(t.at(x), bore)
+            seat = ring(0.94 * bore, 0.999 * bore, x - 0.06 * bore, x + 0.06 * bore, n)
+            t.add("valve body", about_x(seat), of="trim")
+        if self.footed:
+            foot = (0.5 * length, 0.02, 0.35 * bottom)
+            t.add("valve body", *(box(foot, (length / 2, s * 0.6 * wall, -0.82 * bottom)) for s in _BOTH))
+        self.operator.build(t.at(x, 0, high + 0.012))
+        return t.model(round(length, 6), kind="butterfly valve")
+
+
+class Waterworks(Valve, name="butterfly valve/waterworks", sizes=_LARGE):
+    """A waterworks butterfly valve: ribbed double-flanged shell with bosses and feet, dished disc, gear (EN 593)."""
+
+    hollow: bool = styled(True, "whether insides are modelled")
+    ribs: int = among((4, 6, 8), "ribs round its shell")
+    belted: bool = chance(0.5, "a belt round its shell")
+    side: float = among((0.0, np.pi / 2, -np.pi / 2), "where its shaft points, from upward", "rad")
+    footed: bool = chance(0.6, "two feet below it")
+    operator: Any = operator("worm", "worm", "bevel", "multi-turn", "scotch", "lever")
+    disc: Blade = nested(Blade, _DISC, when=lambda p: p.hollow)
+    turn: float = among(
+        (0.0, 0.4 * np.pi, np.pi / 2), "of its disc, from shut", "rad", when=lambda p: p.hollow, otherwise=0.0
+    )
+
+    def build(self, t: Table) -> Model:
+        radius, size, bore, thick = self.radius, t.flange, t.pipe.bore, plate_thickness(self.dn)
+        length, wall = 0.13 + 0.45 * radius, 1.06 * bore + 0.008
+        x, n = length / 2, t.n(size.outer / 2, 16)
+        neck, reach = min(neck_of(self.dn)[0], 1.02 * wall), 0.44 * size.outer
+        middle = outline(neck, thick, wall, 0.5 * length, neck, length - thick)
+        solids = [ended(self.dn, t.style, length, middle, "flanged")]
+        rib = (length - 1.6 * thick, 0.008 + 0.04 * radius, reach - 0.95 * wall)
+        one = box(rib, (x, 0, (reach + 0.95 * wall) / 2))
+        solids += [moved(one, spun("x", (k + 0.5) * 2 * np.pi / self.ribs)) for k in range(self.ribs)]
+        if self.belted:
+            solids.append(about_x(ring(0.96 * wall, 1.1 * wall, 0.42 * length, 0.58 * length, n)))
+        slim, high, pose = 0.2 * radius + 0.014, 0.52 * size.outer + 0.02, at(x) @ spun("x", self.side)
+        above = outline(1.6 * slim, 0.95 * wall, 1.3 * slim, high - 0.03, 2 * slim, high - 0.018, 2 * slim, high)
+        below = outline(1.2 * slim, -0.48 * size.outer, 1.5 * slim, -0.46 * size.outer, 1.6 * slim, -0.95 * wall)
+        solids += [moved(turned(side, 20), pose) for side in (above, below)]
+        if self.footed:
+            foot, low = (0.02, 0.8 * size.outer * 0.7, 0.02), thick / 2 + 0.006
+            solids += [box(foot, (z, 0, -0.5 * size.outer + 0.01)) for z in (low, length - low)]
+        t.add("valve body", *solids)
+        turned_table = t.moved(pose)
+        top = turned_table.at(0, 0, high)
+        put_stem(top, 0.0, 0.02, 0.5 * slim)
+        top.add("bolt", around(hexagon(0.016, 0.0, 0.01), 4, 1.6 * slim, 0.7))
+        self.operator.build(top.at(0, 0, 0.005))
+        if self.hollow:
+            turned_table.spun("z", self.turn).add("valve disc", self.disc.solid(bore, t.style))
+        return t.model(round(length, 6), kind="butterfly valve")
+
+
+class MonoFlange(Valve, name="butterfly valve/mono-flange", sizes=BIG):
+    """A mono-flange or U-section butterfly valve: one wide drilled plate round a rubber-lined ring (EN 593)."""
+
+    single: bool = chance(0.5, "one wide plate, not two")
+    neck: _Neck = nested(_Neck, "neck")
+    disc: TurnedBlade = nested(TurnedBlade, _DISC)
+    operator: Any = operator("worm", "rack", "lever", "motor box", "scotch")
+
+    def build(self, t: Table) -> Model:
+        radius, size, bore, count = self.radius, t.flange, t.pipe.bore, t.flange.n_bolts
+        length, n = FACE_TO_FACE["butterfly"][self.dn], t.n(size.outer / 2, 16)
+        holes: tuple[Floats, ...] = (circle(1.1 * bore, n),)
+        if t.style.holes:
+            a, r = np.pi / count + np.arange(count) * 2 * np.pi / count, size.circle / 2
+            holes += tuple(circle(0.55 * size.bolt, 8, (r * np.cos(k), r * np.sin(k))) for k in a)
+        thin = 0.22 * length
+        spots = [(0.06 * length, 0.06 * length + thin), (0.94 * length - thin, 0.94 * length)]
+        if self.single:
+            spots = [(0.32 * length, 0.68 * length)]
+        solids = [along("x", slab(circle(size.outer / 2, n), low, high, holes)) for low, high in spots]
+        rim = 0.47 * (size.circle - size.bolt)
+        solids.append(about_x(ring(1.05 * bore, rim, 0.04 * length, 0.96 * length, n)))
+        slim, high = min(0.32 * length, 0.16 * radius + 0.012), 0.5 * size.outer + 0.035 + 0.3 * radius
+        tower = self.neck.solids(t, 0.48 * size.outer, high, slim)
+        t.add("valve body", *solids, *(moved(one, at(length / 2)) for one in tower))
+        liner = outline(1, 0, 1.22, 0, 1.22, 0.05, 1.06, 0.06, 1.06, 0.94, 1.22, 0.95, 1.22, 1, 1, 1)
+        t.add("valve body", about_x(part_ring([(r * bore, z * length) for r, z in liner], n)), of="rubber")
+        t = t.at(length / 2)
+        self.neck.put_bolts(t, high, slim)
+        self.disc.build(t, bore)
+        put_stem(t.at(0, 0, high), 0.0, 0.012, 0.45 * slim)
+        self.operator.build(t.at(0, 0, high + 0.006))
+        return t.model(length, "wafer", "butterfly valve")
+
+
+class Hygienic(Valve, name="butterfly valve/hygienic", sizes=tuple(dn for dn in SIZES if 25 <= dn <= 150)):
+    """A hygienic butterfly valve: two polished halves, weld or clamp ends, a squeeze lever or a cylinder."""
+
+    hollow: bool = styled(True, "whether insides are modelled")
+    clamped: bool = chance(0.5, "its ends are clamped, not welded")
+    core: float = among((0.05, 0.075), "length of its body, of a small pipe", "m")
+    bolts: int = among((2, 4), "bolts of its halves")
+    disc: TurnedBlade = nested(TurnedBlade, _DISC, when=lambda p: p.hollow)
+    clamps: ClampedEnds = nested(ClampedEnds, "clamps", when=lambda p: p.clamped)
+    levered: bool = chance(0.6, "a squeeze lever over its index plate, not an actuator")
+    lever: Handlever = nested(levers("notched", "notched", "sheet", "bar"), "that lever", when=lambda p: p.levered)
+    operator: Any = operator("vertical", "vertical", "rack", when=lambda p: not p.levered)
+
+    def build(self, t: Table) -> Model:
+        radius, bore, stub = self.radius, t.pipe.bore, 0.03 if self.clamped else 0.0
+        core = self.core + 0.5 * radius
+        length, x, half, n = core + 2 * stub, core / 2 + stub, 0.012 + 0.08 * radius, t.n(1.4 * radius, 16)
+        big, inner = 1.3 * radius + 0.009, bore if t.style.hollow else 0.0
+        solids = []
+        for low, high, face in ((stub, x, True), (x, length - stub, False)):
+            plain = along("x", ring(inner, radius, low, high, n))
+            solids.append(ferrule(self.dn, low, high, t.style, face) if self.clamped else plain)
+        end = 0.98 * radius
+        side = [(end, 1), (0.85 * big, 1), (big, 0.7), (big, 0.08), (0.97 * big, 0.06)]
+        waist = [*((r, x - z * half) for r, z in side), *((r, x + z * half) for r, z in side[::-1])]
+        solids.append(about_x(part_ring(waist, n)))
+        boss, high = 0.2 * radius + 0.007, big + 0.014
+        t.add("valve body", *solids, along("z", cylinder(boss, 0.95 * radius, high, 16), x), of="clamp")
+        bolt = [cylinder(0.007, x - 1.0 * half, x + 1.0 * half, 12), hexagon(0.011, x + half, x + half + 0.005)]
+        t.add("bolt", about_x(around(merge(bolt), self.bolts, 1.02 * big, np.pi / 4)))
+        put_stem(t.at(x), high - 0.004, high + 0.012, 0.6 * boss)
+        if self.hollow:
+            self.disc.build(t.at(x), bore)
+        if self.clamped:
+            self.clamps.build(t, self.dn, stub, length)
+        top = t.at(x, 0, high)
+        if self.levered:  # over an index plate
+            pegs = [
+                box((0.004, 0.004, 0.006), (2.0 * boss * np.cos(a), 2.0 * boss * np.sin(a), 0.005))
+                for a in np.linspace(0, 1.57, 4)
+            ]
+            top.add("position indicator", slab(circle(2.2 * boss, 16), 0.001, 0.004), *pegs)
+            self.lever.build(top, 0.09 + 1.3 * radius, 0.008)
+        else:
+            self.operator.build(top.at(0, 0, 0.002))
+        return t.model(round(length, 6), "welded", "butterfly valve")
+
+
+class Plastic(Valve, name="butterfly valve/plastic", sizes=BIG):
     """A plastic wafer butterfly valve: a moulded ribbed body, a notched handle over a ratchet plate."""
-    radius, size, bore = PIPES[dn].radius, FLANGES[dn], PIPES[dn].bore
-    length = FACE_TO_FACE["butterfly"][dn]
-    x, n = length / 2, max(16, style.round(size.outer / 2))
-    outer = 0.5 * size.outer
-    skin = about_x(
-        part_ring(
-            [
-                (bore, 0.0),
-                (0.47 * (size.circle - size.bolt), 0.0),
-                (0.47 * (size.circle - size.bolt), length),
-                (bore, length),
-            ],
-            n,
-        )
-    )
-    web = about_x(ring(0.4 * (size.circle - size.bolt), outer, 0.4 * length, 0.6 * length, n))
-    rim = about_x(ring(0.95 * outer, outer, 0.1 * length, 0.9 * length, n))
-    ribs = [
-        moved(
-            box(
-                (0.8 * length, 0.006, outer - 0.45 * (size.circle - size.bolt)),
-                (x, 0, (outer + 0.45 * (size.circle - size.bolt)) / 2),
-            ),
-            spun("x", t),
-        )
-        for t in np.arange(2 * size.n_bolts) * np.pi / size.n_bolts
-    ]
-    slim, high = 0.18 * radius + 0.011, outer + 0.03 + 0.35 * radius
-    tower = merge(
-        [
-            slab(rounded_rectangle(1.7 * slim, 2.4 * slim, 0.4 * slim, 3), 0.97 * outer, high),
-            *(
-                box((0.8 * slim, 0.005, high - 0.98 * outer), (0, s * 1.5 * slim, (high + 0.98 * outer) / 2))
-                for s in (-1, 1)
-            ),
-            box((2.2 * slim, 3.6 * slim, 0.01), (0, 0, high - 0.005)),
-        ]
-    )
-    angles = np.linspace(-0.2, 1.8, 21)
-    reach = 0.04 + 0.9 * radius
-    teeth = [
-        (reach * (1.0 if k % 2 else 0.93) * np.cos(a), reach * (1.0 if k % 2 else 0.93) * np.sin(a))
-        for k, a in enumerate(angles)
-    ]
-    ratchet = slab(np.array([*teeth, (-1.6 * slim, 0.8 * slim), (-1.6 * slim, -1.2 * slim)]), high, high + 0.006)
-    parts = [
-        metal(merge([skin, web, rim, *ribs, moved(tower, at(x))])),
-        trim(ratchet, "position indicator", x),
-        *turned_blade(bore, x, style, rng),
-    ]
-    parts += placed([shaft(high - 0.01, high + 0.02, 0.4 * slim, style)], at(x))
-    if rng.random() < 0.75:
-        parts += placed(
-            [hand_lever(0.12 + 1.6 * radius, high + 0.01, style, rng, ("notched", "notched", "cast"))], at(x)
-        )
-    else:
-        parts += quarter_turn(x, high + 0.006, radius, style, rng, ("worm", "rack", "motor box"))
-    return Model(parts, length, "wafer", "butterfly valve")
+
+    disc: TurnedBlade = nested(TurnedBlade, _DISC)
+    levered: bool = chance(0.75, "a lever, not a gear or an actuator")
+    lever: Handlever = nested(levers("notched", "notched", "cast"), "lever", when=lambda p: p.levered)
+    operator: Any = operator("worm", "rack", "motor box", when=lambda p: not p.levered)
+
+    def build(self, t: Table) -> Model:
+        radius, size, bore = self.radius, t.flange, t.pipe.bore
+        length, n, outer = FACE_TO_FACE["butterfly"][self.dn], t.n(size.outer / 2, 16), 0.5 * size.outer
+        x, free = length / 2, size.circle - size.bolt
+        skin = outline(bore, 0, 0.47 * free, 0, 0.47 * free, length, bore, length)
+        solids = [about_x(part_ring(skin, n)), about_x(ring(0.4 * free, outer, 0.4 * length, 0.6 * length, n))]
+        solids.append(about_x(ring(0.95 * outer, outer, 0.1 * length, 0.9 * length, n)))
+        rib = box((0.8 * length, 0.006, outer - 0.45 * free), (x, 0, (outer + 0.45 * free) / 2))
+        solids += [moved(rib, spun("x", a)) for a in np.arange(2 * size.n_bolts) * np.pi / size.n_bolts]
+        slim, high = 0.18 * radius + 0.011, outer + 0.03 + 0.35 * radius
+        tower = [slab(rounded_rectangle(1.7 * slim, 2.4 * slim, 0.4 * slim, 3), 0.97 * outer, high)]
+        web = (0.8 * slim, 0.005, high - 0.98 * outer)
+        tower += [box(web, (0, s * 1.5 * slim, (high + 0.98 * outer) / 2)) for s in _BOTH]
+        tower.append(box((2.2 * slim, 3.6 * slim, 0.01), (0, 0, high - 0.005)))
+        t.add("valve body", *solids, *(moved(one, at(x)) for one in tower))
+        a, reach, t = np.linspace(-0.2, 1.8, 21), 0.04 + 0.9 * radius, t.at(x)
+        r = reach * np.where(np.arange(21) % 2, 1.0, 0.93)
+        back = np.array([(-1.6, 0.8), (-1.6, -1.2)]) * slim
+        ratchet = np.vstack([np.column_stack([r * np.cos(a), r * np.sin(a)]), back])
+        t.add("position indicator", slab(ratchet, high, high + 0.006))
+        self.disc.build(t, bore)
+        put_stem(t, high - 0.01, high + 0.02, 0.4 * slim)
+        if self.levered:
+            self.lever.build(t, 0.12 + 1.6 * radius, high + 0.01)
+        else:
+            self.operator.build(t.at(0, 0, high + 0.006))
+        return t.model(length, "wafer", "butterfly valve")
 
 
-def _damper(dn: int, style: ModelingStyle, rng: Rng) -> Model:
+class Damper(Valve, name="butterfly valve/duct damper", sizes=tuple(dn for dn in SIZES if dn >= 80)):
     """A single-blade damper in a short duct piece: bead ends, shaft right through, quadrant lever."""
-    radius, bore = PIPES[dn].radius, PIPES[dn].bore
-    length, n = float(rng.uniform(1.2, 2.4)) * radius + 0.05, max(16, style.round(radius))
-    x = length / 2
-    body = [about_x(ring(bore, radius, 0.0, length, n))]
-    if rng.random() < 0.6:
-        body += [about_x(ring(0.995 * radius, radius + 0.012, z, z + 0.004, n)) for z in (0.02, length - 0.024)]
-    body += [cylinder(0.012 + 0.05 * radius, *span(s * 0.98 * radius, s * (radius + 0.02)), 12) for s in (-1, 1)]
-    body[-2:] = [moved(one, at(x)) for one in body[-2:]]
-    high, slim = radius + 0.02, 0.005 + 0.03 * radius
-    angles = np.linspace(-0.3, 2.0, 14)
-    reach = 0.04 + 0.5 * radius
-    plate = np.array(
-        [(reach * np.cos(a), reach * np.sin(a)) for a in angles]
-        + [(-0.6 * reach, 0.3 * reach), (-0.4 * reach, -0.4 * reach), (0.6 * reach, -0.5 * reach)]
+
+    long: float = between(1.2, 2.4, "length / radius of the duct")
+    beaded: bool = chance(0.6, "beads at its ends")
+    disc: TurnedBlade = nested(TurnedBlade, "blade")
+    levered: bool = chance(0.65, "a lever, not an actuator")
+    lever: Handlever = nested(levers("sheet", "bar", "sheet"), "lever", when=lambda p: p.levered)
+    operator: Any = operator(
+        "motor box", "rack", radius=lambda p: 0.8 * PIPES[p.dn].radius, when=lambda p: not p.levered
     )
-    slot = np.array(
-        [(0.85 * reach * np.cos(a), 0.85 * reach * np.sin(a)) for a in angles[2:-2]]
-        + [(0.72 * reach * np.cos(a), 0.72 * reach * np.sin(a)) for a in angles[-3:1:-1]]
-    )
-    parts = [
-        metal(merge(body)),
-        *turned_blade(bore, x, style, rng),
-        trim(slab(plate, high, high + 0.003, (slot,)), "position indicator", x),
-        *placed([shaft(-radius - 0.03, high + 0.02, slim, style)], at(x)),
-    ]
-    if rng.random() < 0.65:
-        wing = merge([cylinder(0.004, high - 0.004, high + 0.02, 8), box((0.025, 0.004, 0.012), (0, 0, high + 0.02))])
-        parts += placed(
-            [
-                hand_lever(1.5 * reach + 0.03, high + 0.006, style, rng, ("sheet", "bar", "sheet")),
-                bolted(moved(wing, at(0.78 * reach))),
-            ],
-            at(x),
-        )
-    else:
-        parts += quarter_turn(x, high + 0.006, 0.8 * radius, style, rng, ("motor box", "rack"))
-    return Model(parts, round(length, 6), "welded", "butterfly valve")
+
+    def build(self, t: Table) -> Model:
+        radius, bore = self.radius, t.pipe.bore
+        length, n = self.long * radius + 0.05, t.n(radius, 16)
+        x, high, slim, reach = length / 2, radius + 0.02, 0.005 + 0.03 * radius, 0.04 + 0.5 * radius
+        solids = [about_x(ring(bore, radius, 0.0, length, n))]
+        if self.beaded:
+            solids += [about_x(ring(0.995 * radius, radius + 0.012, z, z + 0.004, n)) for z in (0.02, length - 0.024)]
+        for s in _BOTH:
+            solids.append(along("z", cylinder(0.012 + 0.05 * radius, *span(s * 0.98 * radius, s * high), 12), x))
+        t.add("valve body", *solids)
+        t = t.at(x)
+        self.disc.build(t, bore)
+        a = np.linspace(-0.3, 2.0, 14)
+        arc = np.column_stack([np.cos(a), np.sin(a)]) * reach
+        plate = np.vstack([arc, np.array([(-0.6, 0.3), (-0.4, -0.4), (0.6, -0.5)]) * reach])
+        slot = np.vstack([0.85 * arc[2:-2], 0.72 * arc[-3:1:-1]])
+        t.add("position indicator", slab(plate, high, high + 0.003, (slot,)))
+        put_stem(t, -radius - 0.03, high + 0.02, slim)
+        if self.levered:
+            self.lever.build(t, 1.5 * reach + 0.03, high + 0.006)
+            nut = cylinder(0.004, high - 0.004, high + 0.02, 8)
+            t.at(0.78 * reach).add("bolt", nut, box((0.025, 0.004, 0.012), (0, 0, high + 0.02)))
+        else:
+            self.operator.build(t.at(0, 0, high + 0.006))
+        return t.model(round(length, 6), "welded", "butterfly valve")
 
 
-_BIG = tuple(dn for dn in SIZES if dn >= 50)
-_WAFER = tuple(dn for dn in SIZES if dn >= 40)
-
-
-def _family(name: str, build: object, sizes: tuple[int, ...]) -> Family:
-    return Family(name, "inline", "Valve assembly", "valve", build, sizes)  # type: ignore[arg-type]
-
-
-DISCS: tuple[Family, ...] = (
-    _family("butterfly valve/triple offset", _triple, _BIG),
-    _family("butterfly valve/waterworks", _waterworks, _BIG),
-    _family("butterfly valve/mono-flange", _mono, _WAFER),
-    _family("butterfly valve/hygienic", _hygienic, tuple(dn for dn in SIZES if 25 <= dn <= 150)),
-    _family("butterfly valve/plastic", _plastic, _WAFER),
-    _family("butterfly valve/duct damper", _damper, tuple(dn for dn in SIZES if dn >= 80)),
-)
+DISCS = families_of(Triple, Waterworks, MonoFlange, Hygienic, Plastic, Damper)

@@ -2,348 +2,261 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
-from cadplants.families.valves.actuation import quarter_turn
-from cadplants.families.valves.actuation_base import bolted, hand_wheel, shaft
-from cadplants.families.valves.actuation_hand import slab
-from cadplants.families.valves.actuation_stroke import LINEAR, yoke_arms
-from cadplants.families.valves.ball import clamped_ends, ferrule, part_ring
-from cadplants.families.valves.body import (
-    bolts_on,
-    ended,
-    lid_joint,
-    metal,
-    neck_of,
-    oval,
-    plate_outline,
-    trim,
-)  # fmt: skip
-from cadplants.families.valves.drive import BODY
-from cadplants.families.valves.valve import valve_family
-from cadplants.family import Family, Model, Part, placed
+from cadplants.builder.device import families_of
+from cadplants.builder.params import Params, among, between, chance, nested, whole
+from cadplants.builder.table import Table, outline
+from cadplants.families.valves.actuation import operator
+from cadplants.families.valves.actuation_base import STEMS, put_stem
+from cadplants.families.valves.actuation_hand import Handwheel, slab, wheels
+from cadplants.families.valves.actuation_stroke import STROKES, Yoke
+from cadplants.families.valves.ball import ClampedEnds, ferrule, part_ring
+from cadplants.families.valves.base import BOTH, sized
+from cadplants.families.valves.body import bolts_on, ended, lid_joint, neck_of, oval, plate_outline
+from cadplants.families.valves.valve import Valve
+from cadplants.family import Model
 from cadplants.flange import plate_thickness
 from cadplants.mesh_ops import Solid, about_x, merge, moved
-from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import rounded_rectangle
 from cadplants.primitives import along, box, cylinder, hexagon, lofted, ring, rod, turned, waves
-from cadplants.standards import FACE_TO_FACE, FLANGES, PIPES, SIZES
+from cadplants.standards import FACE_TO_FACE
 from cadplants.transforms import at
 
 __all__ = ["LININGS"]
 
-Rng = np.random.Generator
+_ABOUT_STEM = "how the stem is made"
+_ABOUT_WHEELED = "a wheel rather than an actuator"
+_WHEELS = wheels("spoked", "spoked", "lobed", "dished", "disc")
 
 
-def _straight(dn: int, style: ModelingStyle, rng: Rng) -> Model:
+def _ovals(a: float, b: float, n: int, *marks: tuple[float, float, float]) -> Solid:
+    """A solid through ovals, each as shares of two half widths and a height [m]."""
+    return lofted([np.column_stack([oval(a * s, b * f, n), np.full(n, z)]) for s, f, z in marks])
+
+
+class StraightDiaphragm(Valve, name="diaphragm valve/straight through", sizes=sized(15, 200)):
     """A straight-through diaphragm valve: full bore, a long oval joint, a tall bonnet (EN 13397)."""
-    radius = PIPES[dn].radius
-    length = FACE_TO_FACE["gate"][dn] * 1.1
-    neck, back = neck_of(dn)
-    x, n = length / 2, max(16, style.round(1.6 * radius))
-    half_x, half_y = min(0.42 * length, 1.7 * radius + 0.012), 1.25 * radius + 0.014
-    seat, plate = max(1.25 * radius + 0.006, 0.0), 0.009 + 0.07 * radius
-    kind = str(rng.choice(["oval", "square", "oval", "octagon"]))
-    collar, lid, bolts = lid_joint(kind, half_x, half_y, seat, plate, style, rng)
-    tray = lofted(
-        [
-            np.column_stack([oval(half_x * s, half_y * t, n), np.full(n, z)])
-            for s, t, z in ((0.5, 0.4, -1.1 * radius), (0.7, 0.8, -0.3 * radius), (0.85, 0.85, seat - 0.5 * plate))
-        ]
+
+    joint: str = among(("oval", "square", "oval", "octagon"), "outline of the joint")
+    tall: float = between(1.2, 2.0, "height of the bonnet / radius of the pipe")
+    wheeled: bool = chance(0.65, _ABOUT_WHEELED)
+    stem: str = among(STEMS, _ABOUT_STEM, when=lambda p: p.wheeled, otherwise="plain")
+    wheel: Handwheel = nested(
+        wheels("spoked", "spoked", "lobed", "dished", "disc"), "handwheel", when=lambda p: p.wheeled
     )
-    seal = slab(plate_outline(kind, 0.99 * half_x, 0.99 * half_y, n), seat, seat + 0.004)
-    rise = seat + 0.004 + plate
-    high = rise + float(rng.uniform(1.2, 2.0)) * radius + 0.02
-    hood = lofted(
-        [
-            np.column_stack([oval(half_x * s, half_y * t, n), np.full(n, z)])
-            for s, t, z in (
-                (0.85, 0.85, rise - 0.3 * plate),
-                (0.75, 0.8, rise + 0.4 * (high - rise)),
-                (0.4, 0.5, rise + 0.75 * (high - rise)),
-                (0.3, 0.45, high),
-            )
-        ]
-    )
-    slim = 0.005 + 0.08 * radius
-    parts = [
-        metal(
-            merge(
-                [
-                    ended(
-                        dn,
-                        style,
-                        length,
-                        [
-                            (neck, back),
-                            (1.08 * radius + 0.004, 0.3 * length),
-                            (1.08 * radius + 0.004, 0.7 * length),
-                            (neck, length - back),
-                        ],
-                        "flanged",
-                    ),
-                    moved(merge([tray, collar]), at(x)),
-                ]
-            )
-        ),
-        Part(moved(seal, at(x)), "gasket", "rubber", BODY, "Pipe assembly"),
-        trim(merge([moved(lid, at(0, 0, 0.004)), hood]), "valve bonnet", x, "valve"),
-        *placed([bolts], at(x)),
-    ]
-    if rng.random() < 0.65:
-        parts += placed(
-            [
-                shaft(-0.01, 0.05 + radius, slim, style, rng),
-                hand_wheel(0.04 + 1.2 * radius, 0.012, style, rng, ("spoked", "spoked", "lobed", "dished", "disc")),
-            ],
-            at(x, 0, high),
-        )
-        parts.append(
-            trim(cylinder(0.8 * slim, high + 0.04 + radius, high + 0.08 + 1.3 * radius, 10), "position indicator", x)
-        )
-    else:
-        parts += placed(LINEAR[str(rng.choice(["piston", "diaphragm"]))](radius, high - 0.002, style, rng), at(x))
-    return Model(parts, length, kind="diaphragm valve")
+    make: str = among(("piston", "diaphragm"), "what the actuator is", when=lambda p: not p.wheeled, otherwise="")
+    actuator: Any = nested(lambda s, p: STROKES[p.make].draw(s), "actuator", when=lambda p: not p.wheeled)
+
+    def build(self, t: Table) -> Model:
+        r, length, (neck, back) = t.pipe.radius, FACE_TO_FACE["gate"][t.dn] * 1.1, neck_of(t.dn)
+        x, n, a, b = length / 2, t.n(1.6 * r, 16), min(0.42 * length, 1.7 * r + 0.012), 1.25 * r + 0.014
+        seat, plate, up, wide = 1.25 * r + 0.006, 0.009 + 0.07 * r, t.at(length / 2), 1.08 * r + 0.004
+        collar, lid, bolts = lid_joint(self.joint, a, b, seat, plate, t.style)
+        tray = _ovals(a, b, n, (0.5, 0.4, -1.1 * r), (0.7, 0.8, -0.3 * r), (0.85, 0.85, seat - 0.5 * plate))
+        rise = seat + 0.004 + plate
+        high = rise + self.tall * r + 0.02
+        tall = high - rise
+        marks = ((0.75, 0.8, rise + 0.4 * tall), (0.4, 0.5, rise + 0.75 * tall), (0.3, 0.45, high))
+        hood = _ovals(a, b, n, (0.85, 0.85, rise - 0.3 * plate), *marks)
+        middle = outline(neck, back, wide, 0.3 * length, wide, 0.7 * length, neck, length - back)
+        run = ended(t.dn, t.style, length, middle, "flanged")
+        t.add("valve body", run, *(moved(solid, at(x)) for solid in (tray, collar)))
+        seal = slab(plate_outline(self.joint, 0.99 * a, 0.99 * b, n), seat, seat + 0.004)
+        up.add("gasket", seal, of="rubber", own=True)
+        up.add("valve bonnet", moved(lid, at(0, 0, 0.004)), hood)
+        up.extend([bolts])
+        if self.wheeled:
+            slim = 0.005 + 0.08 * r
+            put_stem(up.at(0, 0, high), -0.01, 0.05 + r, slim, self.stem)
+            self.wheel.build(up.at(0, 0, high), 0.04 + 1.2 * r, 0.012)
+            finger = cylinder(0.8 * slim, high + 0.04 + r, high + 0.08 + 1.3 * r, 10)
+            up.add("position indicator", finger, of="trim")
+        else:
+            self.actuator.build(up, r, high - 0.002)
+        return t.model(length, kind="diaphragm valve")
 
 
-def _aseptic(dn: int, style: ModelingStyle, rng: Rng) -> Model:
+class Aseptic(Valve, name="diaphragm valve/aseptic", sizes=sized(15, 100), weight=1.5):
     """An aseptic or plastic diaphragm valve: block body, square joint, clamp, weld or socket ends (EN 13397)."""
-    radius, ends = PIPES[dn].radius, str(rng.choice(["clamp", "butt", "socket"]))
-    stub = 0.025 if ends == "clamp" else 0.0
-    core = 0.06 + 3.2 * radius
-    length, x = core + 2 * stub, core / 2 + stub
-    half, n = 1.55 * radius + 0.010, max(16, style.round(1.5 * radius))
-    if ends == "clamp":
-        arms = [ferrule(dn, stub, x, style, True), ferrule(dn, x, length - stub, style, False)]
-    else:
-        end = radius if ends == "butt" else 1.3 * radius
-        bore = PIPES[dn].bore if style.hollow else 0.0
-        arms = [along("x", ring(bore, end, 0.0, length, n))]
-    seat = 1.1 * radius + 0.006
-    outline = rounded_rectangle(2 * half, 2 * half, float(rng.uniform(0.15, 0.6)) * half, 4)
-    block = [slab(outline, seat - 0.008 - 0.1 * radius, seat)]
-    bottom = [
-        np.column_stack([outline * s, np.full(len(outline), z)])
-        for s, z in ((0.45, -1.05 * radius), (0.75, -0.2 * radius), (0.9, seat - 0.007 - 0.1 * radius))
-    ]
-    block.append(lofted(bottom))
-    seal = slab(outline * 0.995, seat, seat + 0.003)
-    low = seat + 0.003
-    lid = [slab(outline, low, low + 0.008 + 0.12 * radius)]
-    bolts = bolts_on(outline, 4, seat - 0.008, low + 0.009 + 0.12 * radius, 0.005 + 0.04 * radius)
-    step = low + 0.007 + 0.12 * radius
-    high = step + float(rng.uniform(1.0, 2.2)) * radius + 0.015
-    if rng.random() < 0.5:
-        lid.append(turned([(0.95 * half, step), (0.9 * half, 0.5 * (step + high)), (0.55 * half, high)], n))
-    else:
-        lid.append(slab(outline * 0.85, step, high - 0.004))
-        lid.append(cylinder(0.6 * half, high - 0.005, high, n))
-    parts = [
-        metal(merge([*arms, *(moved(s, at(x)) for s in block)]), 0.0, "clamp"),
-        Part(moved(seal, at(x)), "gasket", "rubber", BODY, "Pipe assembly"),
-        trim(merge(lid), "valve bonnet", x),
-        *placed([bolts], at(x)),
-    ]
-    if ends == "clamp":
-        parts += clamped_ends(dn, stub, length, style, rng)
-    if rng.random() < 0.65:
-        size = 0.85 * half + 0.008
-        parts += placed(
-            [
-                shaft(-0.004, 0.02 + radius, 0.15 * half, style),
-                hand_wheel(size, 0.001, style, rng, ("lobed", "lobed", "spoked", "dished")),
-            ],
-            at(x, 0, high),
-        )
-        sight = merge([cylinder(0.1 * half, high + 0.02 + radius, high + 0.03 + 1.4 * radius, 10)])
-        parts.append(trim(sight, "position indicator", x, "safety"))
-    else:
-        parts += (
-            quarter_turn(x, high, radius, style, rng, ("vertical",))
-            if rng.random() < 0.5
-            else placed(LINEAR["piston"](radius, high - 0.001, style, rng), at(x))
-        )
-    return Model(parts, round(length, 6), "welded", "diaphragm valve")
+
+    ends: str = among(("clamp", "butt", "socket"), "how it is joined to the pipe")
+    corner: float = between(0.15, 0.6, "radius of the joint's corners / half its width")
+    tall: float = between(1.0, 2.2, "height of the bonnet / radius of the pipe")
+    is_round: bool = chance(0.5, "the bonnet is round")
+    clamps: ClampedEnds = nested(ClampedEnds, "clamps at both ends", when=lambda p: p.ends == "clamp")
+    wheeled: bool = chance(0.65, _ABOUT_WHEELED)
+    wheel: Handwheel = nested(wheels("lobed", "lobed", "spoked", "dished"), "handwheel", when=lambda p: p.wheeled)
+    upright: bool = chance(0.5, "the actuator is an upright cylinder", when=lambda p: not p.wheeled)
+    operator: Any = operator("vertical", when=lambda p: p.upright)
+    actuator: Any = nested(STROKES["piston"], "what lifts the stem", when=lambda p: not p.wheeled and not p.upright)
+
+    def build(self, t: Table) -> Model:
+        r, clamped, bore = t.pipe.radius, self.ends == "clamp", t.pipe.bore if t.style.hollow else 0.0
+        stub, half, n = 0.025 if clamped else 0.0, 1.55 * r + 0.010, t.n(1.5 * r, 16)
+        length = 0.06 + 3.2 * r + 2 * stub
+        x = (0.06 + 3.2 * r) / 2 + stub
+        up, thick, seat = t.at(x), 0.008 + 0.1 * r, 1.1 * r + 0.006
+        if clamped:
+            arms = [ferrule(t.dn, stub, x, t.style, True), ferrule(t.dn, x, length - stub, t.style, False)]
+        else:
+            arms = [along("x", ring(bore, r if self.ends == "butt" else 1.3 * r, 0.0, length, n))]
+        flat = rounded_rectangle(2 * half, 2 * half, self.corner * half, 4)
+        marks = ((0.45, -1.05 * r), (0.75, -0.2 * r), (0.9, seat - 0.007 - 0.1 * r))
+        bottom = lofted([np.column_stack([flat * s, np.full(len(flat), z)]) for s, z in marks])
+        block = [slab(flat, seat - thick, seat), bottom]
+        t.add("valve body", *arms, *(moved(solid, at(x)) for solid in block), of="clamp")
+        up.add("gasket", slab(flat * 0.995, seat, seat + 0.003), of="rubber", own=True)
+        low = seat + 0.003
+        step = low + 0.007 + 0.12 * r
+        high = step + self.tall * r + 0.015
+        if self.is_round:
+            lid = [turned(outline(0.95 * half, step, 0.9 * half, 0.5 * (step + high), 0.55 * half, high), n)]
+        else:
+            lid = [slab(flat * 0.85, step, high - 0.004), cylinder(0.6 * half, high - 0.005, high, n)]
+        up.add("valve bonnet", slab(flat, low, low + 0.008 + 0.12 * r), *lid, of="trim")
+        up.extend([bolts_on(flat, 4, seat - 0.008, low + 0.009 + 0.12 * r, 0.005 + 0.04 * r)])
+        if clamped:
+            self.clamps.build(t, t.dn, stub, length)
+        if self.wheeled:
+            put_stem(up.at(0, 0, high), -0.004, 0.02 + r, 0.15 * half)
+            self.wheel.build(up.at(0, 0, high), 0.85 * half + 0.008, 0.001)
+            sight = cylinder(0.1 * half, high + 0.02 + r, high + 0.03 + 1.4 * r, 10)
+            up.add("position indicator", sight, of="safety")
+        elif self.upright:
+            self.operator.build(up.at(0, 0, high))
+        else:
+            self.actuator.build(up, r, high - 0.001)
+        return t.model(round(length, 6), "welded", "diaphragm valve")
 
 
-def _sleeve(length: float, thick: float, sleeve_out: float, flat: float, n: int) -> Solid:
+def _sleeve(length: float, thick: float, size: float, flat: float, n: int) -> Solid:
     """A rubber sleeve that is pressed flat in its middle and gives way to the sides [m]."""
-    stations = [
-        (thick, 1.0),
-        (0.25 * length, 1.0),
-        (0.42 * length, flat),
-        (0.58 * length, flat),
-        (0.75 * length, 1.0),
-        (length - thick, 1.0),
-    ]
-    wide = [1 + 0.45 * (1 - s) for _, s in stations]
-    return lofted(
-        [
-            np.column_stack([np.full(n, z), sleeve_out * w * np.cos(t), sleeve_out * s * np.sin(t)])
-            for (z, s), w in zip(stations, wide, strict=True)
-            for t in [np.arange(n) * 2 * np.pi / n]
-        ]
-    )
+    half = ((thick, 1.0), (0.25 * length, 1.0), (0.42 * length, flat))
+    turns, loops = np.arange(n) * 2 * np.pi / n, []
+    for z, s in (*half, *((length - z, s) for z, s in half[::-1])):
+        wide = size * (1 + 0.45 * (1 - s))
+        loops.append(np.column_stack([np.full(n, z), wide * np.cos(turns), size * s * np.sin(turns)]))
+    return lofted(loops)
 
 
-def _pinch_open(dn: int, style: ModelingStyle, rng: Rng) -> Model:
+class OpenPinch(Valve, name="pinch valve/open frame", sizes=sized(25)):
     """An open-frame pinch valve: a rubber sleeve between two flanges, squeezed by bars in an open yoke."""
-    radius = PIPES[dn].radius
-    size, thick = FLANGES[dn], plate_thickness(dn)
-    length = 0.12 + 4.4 * radius
-    x, n = length / 2, max(16, style.round(radius))
-    sleeve_out, bore = 1.25 * radius + 0.006, PIPES[dn].bore
-    flat = float(rng.uniform(0.3, 1.0))
-    inner = bore if style.hollow else 0.0
-    ends = [along("x", ring(inner, size.outer / 2, z, z + thick, n)) for z in (0.0, length - thick)]
-    tube_ = _sleeve(length, thick, sleeve_out, flat, n)
-    bar = 0.05 * length + 0.01
-    reach = 1.7 * sleeve_out + 0.01
-    up = max(sleeve_out + 0.06, 0.5 * size.outer + 0.02)
-    bars = [box((2 * bar, 2 * reach * 0.8, 0.6 * bar), (0, 0, sg * (sleeve_out * flat + 0.3 * bar))) for sg in (-1, 1)]
-    if rng.random() < 0.5:
-        posts = [cylinder(0.008 + 0.05 * radius, -sleeve_out - 0.7 * bar, up, 10) for _ in (0, 1)]
-        posts = [moved(p, at(0, s * reach)) for p, s in zip(posts, (-1, 1), strict=True)]
-        beams = [box((2 * bar, 2.3 * reach, 0.02), (0, 0, z)) for z in (up, -sleeve_out * 1.0 - 0.7 * bar)]
-    else:
-        posts = [
-            box((1.6 * bar, 0.014, up + sleeve_out + 0.7 * bar), (0, s * reach, (up - sleeve_out - 0.7 * bar) / 2))
-            for s in (-1, 1)
-        ]
-        beams = [box((1.8 * bar, 2.1 * reach, 0.016), (0, 0, z)) for z in (up, -sleeve_out - 0.7 * bar)]
-    ties = (
-        [
-            rod(
-                (0.5 * thick, s * 0.46 * size.outer, 0.1 * size.outer),
-                (length - 0.5 * thick, s * 0.46 * size.outer, 0.1 * size.outer),
-                0.008,
-                8,
-            )
-            for s in (-1, 1)
-        ]
-        if rng.random() < 0.6
-        else []
-    )
-    slim = 0.007 + 0.06 * radius
-    low = sleeve_out * flat + 0.5 * bar
-    parts = [
-        metal(merge([*ends, *ties])),
-        trim(tube_, "valve body", 0.0, "rubber"),
-        trim(merge(bars), "valve disc", x),
-        trim(merge([*posts, *beams]), "yoke", x, "steel"),
-    ]
-    if rng.random() < 0.6:
-        parts += placed(
-            [shaft(low, up + 0.08 + radius, slim, style, rng), hand_wheel(0.06 + 1.2 * radius, up + 0.012, style, rng)],
-            at(x),
+
+    flat: float = between(0.3, 1.0, "height of the squeezed sleeve / of the open one")
+    pillars: bool = chance(0.5, "round pillars rather than flat ones")
+    tied: bool = chance(0.6, "tie rods between the flanges")
+    wheeled: bool = chance(0.6, _ABOUT_WHEELED)
+    stem: str = among(STEMS, _ABOUT_STEM, when=lambda p: p.wheeled, otherwise="plain")
+    wheel: Handwheel = nested(Handwheel, "handwheel", when=lambda p: p.wheeled)
+    make: str = among(("piston", "ram", "turning"), "what the actuator is", when=lambda p: not p.wheeled, otherwise="")
+    actuator: Any = nested(lambda s, p: STROKES[p.make].draw(s), "actuator", when=lambda p: not p.wheeled)
+
+    def build(self, t: Table) -> Model:
+        r, size, thick, length = t.pipe.radius, t.flange.outer, plate_thickness(t.dn), 0.12 + 4.4 * t.pipe.radius
+        n, out, inner, up = t.n(r, 16), 1.25 * r + 0.006, t.pipe.bore if t.style.hollow else 0.0, t.at(length / 2)
+        solids = [along("x", ring(inner, size / 2, z, z + thick, n)) for z in (0.0, length - thick)]
+        if self.tied:
+            for y in (-0.46 * size, 0.46 * size):
+                solids.append(rod((0.5 * thick, y, 0.1 * size), (length - 0.5 * thick, y, 0.1 * size), 0.008, 8))
+        t.add("valve body", *solids)
+        t.add("valve body", _sleeve(length, thick, out, self.flat, n), of="rubber")
+        bar, reach, high, edge = (
+            0.05 * length + 0.01,
+            1.7 * out + 0.01,
+            max(out + 0.06, 0.5 * size + 0.02),
+            out * self.flat,
         )
-    else:
-        kind = str(rng.choice(["piston", "ram", "turning"]))
-        parts += placed([shaft(low, up + 0.012, slim, style), *LINEAR[kind](radius, up + 0.009, style, rng)], at(x))
-    return Model(parts, round(length, 6), kind="pinch valve")
+        bars = [box((2 * bar, 2 * reach * 0.8, 0.6 * bar), (0, 0, s * (edge + 0.3 * bar))) for s in BOTH]
+        up.add("valve disc", *bars)
+        low, high = -out - 0.7 * bar, max(out + 0.06, 0.5 * size + 0.02)
+        if self.pillars:
+            posts = [moved(cylinder(0.008 + 0.05 * r, low, high, 10), at(0, s * reach)) for s in BOTH]
+            beam = (2 * bar, 2.3 * reach, 0.02)
+        else:
+            posts = [box((1.6 * bar, 0.014, high - low), (0, s * reach, (high + low) / 2)) for s in BOTH]
+            beam = (1.8 * bar, 2.1 * reach, 0.016)
+        up.add("yoke", *posts, *(box(beam, (0, 0, z)) for z in (high, low)), of="steel")
+        slim, foot = 0.007 + 0.06 * r, edge + 0.5 * bar
+        put_stem(up, foot, high + (0.08 + r if self.wheeled else 0.012), slim, self.stem)
+        if self.wheeled:
+            self.wheel.build(up, 0.06 + 1.2 * r, high + 0.012)
+        else:
+            self.actuator.build(up, r, high + 0.009)
+        return t.model(round(length, 6), kind="pinch valve")
 
 
-def _casing(length: float, neck: float, back: float, big: float, rng: Rng) -> list[tuple[float, float]]:
-    """The outline of an enclosed pinch valve between its flanges: drum, barrel or ringed [m]."""
-    kind = int(rng.integers(3))
-    if kind == 0:
-        return [
-            (neck, back),
-            (big, back + 0.12 * length),
-            (big, length - back - 0.12 * length),
-            (neck, length - back),
-        ]
-    elif kind == 1:
-        return [
-            (neck, back),
-            *[
-                (r, float(z))
-                for r, z in [
-                    (big * (0.8 + 0.2 * np.sin(np.pi * s)), back + s * (length - 2 * back))
-                    for s in np.linspace(0.08, 0.92, 9)
-                ]
-            ],
-            (neck, length - back),
-        ]
-    else:
-        return [
-            (neck, back),
-            *[
-                (r, z)
-                for z, r in sorted((z, r) for r, z in waves(back + 0.01, length - back - 0.01, 0.92 * big, big, 4))
-            ],
-            (neck, length - back),
-        ]
+class _Squeezer(Params):
+    """What presses an enclosed sleeve together: a wheel on a yoke, a piston or a ram."""
+
+    powered: bool = chance(0.4, "a piston or ram rather than a wheel")
+    make: str = among(("piston", "ram"), "what the actuator is", when=lambda p: p.powered, otherwise="")
+    actuator: Any = nested(lambda s, p: STROKES[p.make].draw(s), "actuator", when=lambda p: p.powered)
+    yoke: Yoke = nested(Yoke, "yoke", when=lambda p: not p.powered)
+    stem: str = among(STEMS, _ABOUT_STEM, when=lambda p: not p.powered, otherwise="plain")
+    wheel: Handwheel = nested(Handwheel, "handwheel", when=lambda p: not p.powered)
+
+    def build(self, t: Table, half: float) -> None:
+        """Puts it down on z = 0, on a tower of a half width [m]."""
+        r = t.pipe.radius
+        if self.powered:
+            self.actuator.build(t, r, 0.0)
+            return
+        tall = 0.05 + 0.9 * r
+        self.yoke.build(t, 1.3 * half, tall)
+        put_stem(t, -0.02, tall + 0.06 + 0.5 * r, 0.006 + 0.06 * r, self.stem)
+        self.wheel.build(t, 0.05 + 1.2 * r, tall + 0.002)
 
 
-def _squeezer(half: float, radius: float, style: ModelingStyle, rng: Rng) -> list[Part]:
-    """What presses an enclosed sleeve together: a wheel on a yoke, a piston or a ram [m]."""
-    tall, slim = 0.05 + 0.9 * radius, 0.006 + 0.06 * radius
-    if rng.random() < 0.4:
-        return LINEAR[str(rng.choice(["piston", "ram"]))](radius, 0.0, style, rng)
-    return [
-        yoke_arms(1.3 * half, tall, style, rng),
-        shaft(-0.02, tall + 0.06 + 0.5 * radius, slim, style, rng),
-        hand_wheel(0.05 + 1.2 * radius, tall + 0.002, style, rng),
-    ]
-
-
-def _pinch_closed(dn: int, style: ModelingStyle, rng: Rng) -> Model:
+class EnclosedPinch(Valve, name="pinch valve/enclosed", sizes=sized(25)):
     """An enclosed pinch valve: two cast halves bolted along the middle, air-operated or with a wheel above."""
-    radius = PIPES[dn].radius
-    length = 0.08 + 3.6 * radius
-    neck, back = neck_of(dn)
-    x, big = length / 2, 1.55 * radius + 0.012
-    n = max(16, style.round(big))
-    middle = _casing(length, neck, back, big, rng)
-    body = [ended(dn, style, length, middle, "flanged")]
-    flange_ = (
-        slab(rounded_rectangle(length - 2 * back - 0.012, 2 * big + 0.05, 0.02, 3), -0.010, 0.010)
-        if rng.random() < 0.7
-        else None
-    )
-    parts: list[Part] = []
-    if flange_ is not None:
-        body.append(moved(flange_, at(x)))
-        one = merge([cylinder(0.005, -0.016, 0.016, 8), hexagon(0.016, 0.010, 0.018), hexagon(0.016, -0.018, -0.010)])
-        spots = np.linspace(-0.4, 0.4, int(rng.integers(3, 6))) * (length - 2 * back - 0.012)
-        parts.append(bolted(merge([moved(one, at(x + float(p), s * (big + 0.014))) for p in spots for s in (-1, 1)])))
-    high = big + 0.02
-    if rng.random() < 0.45:
-        body.append(
-            moved(
-                merge(
-                    [
-                        cylinder(0.016, 0.9 * big, high, 12),
-                        hexagon(0.026, high, high + 0.014),
-                        cylinder(0.007, high + 0.01, high + 0.04, 8),
-                    ]
-                ),
-                at(x),
+
+    shape: str = among(("drum", "barrel", "ringed"), "shape of the casing")
+    split: bool = chance(0.7, "the halves have a flange along the middle")
+    bolts: int = whole(3, 5, "of that flange on a side", when=lambda p: p.split)
+    by_air: bool = chance(0.45, "air squeezes the sleeve, through a port above")
+    squeezer: _Squeezer = nested(_Squeezer, "what squeezes the sleeve", when=lambda p: not p.by_air)
+
+    def build(self, t: Table) -> Model:
+        r, length, (neck, back) = t.pipe.radius, 0.08 + 3.6 * t.pipe.radius, neck_of(t.dn)
+        x, big = length / 2, 1.55 * r + 0.012
+        n, up, high, long = t.n(big, 16), t.at(x), big + 0.02, length - 2 * back - 0.012
+        solids = [ended(t.dn, t.style, length, self._casing(length, neck, back, big), "flanged")]
+        if self.split:
+            solids.append(moved(slab(rounded_rectangle(long, 2 * big + 0.05, 0.02, 3), -0.010, 0.010), at(x)))
+        seat, half = max(high, 0.5 * t.flange.outer), 0.55 * big
+        if self.by_air:
+            port = [cylinder(0.016, 0.9 * big, high, 12), hexagon(0.026, high, high + 0.014)]
+            port.append(cylinder(0.007, high + 0.01, high + 0.04, 8))
+        else:
+            port = [cylinder(half, 0.7 * big, seat, n), cylinder(1.4 * half, seat - 0.012, seat, n)]
+        t.add("valve body", *solids, *(moved(solid, at(x)) for solid in port))
+        if self.split:
+            bolt = merge(
+                [cylinder(0.005, -0.016, 0.016, 8), hexagon(0.016, 0.010, 0.018), hexagon(0.016, -0.018, -0.010)]
             )
-        )
-        parts.insert(0, metal(merge(body)))
-    else:
-        seat, half = max(high, 0.5 * FLANGES[dn].outer), 0.55 * big
-        tower = merge([cylinder(half, 0.7 * big, seat, n), cylinder(1.4 * half, seat - 0.012, seat, n)])
-        parts.insert(0, metal(merge([*body, moved(tower, at(x))])))
-        parts += placed(_squeezer(half, radius, style, rng), at(x, 0, seat))
-    if style.hollow:
-        bore = PIPES[dn].bore
-        liner = about_x(
-            part_ring([(0.86 * bore, 0.0), (0.985 * bore, 0.0), (0.985 * bore, length), (0.86 * bore, length)], n)
-        )
-        parts.append(trim(liner, "valve body", 0.0, "rubber"))
-    return Model(parts, round(length, 6), kind="pinch valve")
+            spots = [(float(p), s * (big + 0.014)) for p in np.linspace(-0.4, 0.4, self.bolts) * long for s in BOTH]
+            up.add("bolt", *(moved(bolt, at(*spot)) for spot in spots))
+        if not self.by_air:
+            self.squeezer.build(up.at(0, 0, seat), half)
+        if t.style.hollow:
+            bore = t.pipe.bore
+            liner = part_ring(outline(0.86 * bore, 0, 0.985 * bore, 0, 0.985 * bore, length, 0.86 * bore, length), n)
+            t.add("valve body", about_x(liner), of="rubber")
+        return t.model(round(length, 6), kind="pinch valve")
+
+    def _casing(self, length: float, neck: float, back: float, big: float) -> list[tuple[float, float]]:
+        """The outline of the casing between its flanges."""
+        if self.shape == "drum":
+            middle = [(big, back + 0.12 * length), (big, length - back - 0.12 * length)]
+        elif self.shape == "barrel":
+            shares, long = np.linspace(0.08, 0.92, 9), length - 2 * back
+            middle = [(big * (0.8 + 0.2 * np.sin(np.pi * s)), float(back + s * long)) for s in shares]
+        else:
+            middle = sorted(waves(back + 0.01, length - back - 0.01, 0.92 * big, big, 4), key=lambda mark: mark[1])
+        return [(neck, back), *middle, (neck, length - back)]
 
 
-_MID = tuple(dn for dn in SIZES if dn <= 200)
-_SMALL = tuple(dn for dn in SIZES if dn <= 100)
-
-
-LININGS: tuple[Family, ...] = (
-    valve_family("diaphragm valve/straight through", _straight, _MID),
-    valve_family("diaphragm valve/aseptic", _aseptic, _SMALL, weight=1.5),
-    valve_family("pinch valve/open frame", _pinch_open, tuple(dn for dn in SIZES if dn >= 25)),
-    valve_family("pinch valve/enclosed", _pinch_closed, tuple(dn for dn in SIZES if dn >= 25)),
-)
+LININGS = families_of(StraightDiaphragm, Aseptic, OpenPinch, EnclosedPinch)

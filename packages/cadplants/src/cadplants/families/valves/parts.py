@@ -1,4 +1,4 @@
-"""What check, relief, reducing and small valves share: named parts, branches, bolted covers, threaded ends, springs."""
+"""What check, relief, reducing and small valves share: branches, bolted covers, threaded ends, springs."""
 
 from __future__ import annotations
 
@@ -7,10 +7,12 @@ from collections.abc import Sequence
 import numpy as np
 
 from cadgraph.model.scene import Floats
+from cadplants.builder.table import Table
+from cadplants.families.valves.drive import BODY
 from cadplants.families.valves.threaded import hex_end
 from cadplants.families.valves.valve import bolt_circle, disc_flange
 from cadplants.family import Part
-from cadplants.mesh_ops import Solid, about_x, extrude, merge, moved
+from cadplants.mesh_ops import Solid, extrude, merge, moved
 from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle
 from cadplants.primitives import along, around, box, cylinder, hexagon, rope, torus, turned
@@ -18,70 +20,15 @@ from cadplants.standards import FLANGES, PIPES, SIZES
 from cadplants.transforms import at
 
 __all__ = [
-    "BIG",
-    "BODY",
-    "MID",
-    "SMALL",
-    "bend",
-    "body",
-    "bolting",
-    "bonnet",
-    "branch",
-    "cage",
-    "chain",
-    "cover",
-    "fronted",
-    "hub_radius",
-    "laid",
-    "other",
-    "piece",
-    "screwed",
-    "spring",
-    "square",
-    "thread_nut",
-]
+    "BIG", "MID", "SMALL", "bend", "branch", "cage", "chain", "cover", "hub_radius", "screwed", "spring", "square",
+    "thread_nut", "threaded_run",
+]  # fmt: skip
 
-BODY = "valve body"
 SMALL = tuple(dn for dn in SIZES if dn <= 50)
 MID = tuple(dn for dn in SIZES if dn <= 200)
 BIG = tuple(dn for dn in SIZES if dn >= 40)
 
 _BACK = {"x": "-x", "-x": "x", "y": "-y", "-y": "y", "z": "-z", "-z": "z"}
-
-
-def piece(name: str, *solids: Solid, color: str = "trim", bundle: str = BODY) -> Part:
-    """Solids as one part of the valve."""
-    return Part(merge(list(solids)), name, color, bundle)
-
-
-def body(*solids: Solid) -> Part:
-    """Solids as one valve body."""
-    return piece("valve body", *solids, color="valve")
-
-
-def bonnet(*solids: Solid) -> Part:
-    """Solids as one valve bonnet."""
-    return piece("valve bonnet", *solids, color="valve")
-
-
-def bolting(solid: Solid) -> Part:
-    """Bolts as one mesh, left out by hands without fasteners."""
-    return Part(solid, "bolt", "fastener", BODY, "Connection assembly", True)
-
-
-def other(group: str, name: str, color: str, *solids: Solid, own: bool = False) -> Part:
-    """A part of another group; one with the valve's mesh where the style makes it whole if it is its ``own``."""
-    return Part(merge(list(solids)), name, color, BODY if own else "", group)
-
-
-def laid(parts: Sequence[Part]) -> list[Part]:
-    """What was built upon z = 0 laid along x, as a device with one flange is."""
-    return [Part(about_x(p.solid), p.name, p.color, p.bundle, p.group, p.fine) for p in parts]
-
-
-def fronted(parts: Sequence[Part]) -> list[Part]:
-    """Parts with a valve body first: the contacts of a device are recorded from its first part."""
-    return sorted(parts, key=lambda p: p.name != BODY)
 
 
 def branch(dn: int, style: ModelingStyle, reach: float, way: str, center: Sequence[float] = (0.0, 0.0, 0.0)) -> Solid:
@@ -103,24 +50,22 @@ def cover(
     n, thread = style.round(radius), max(0.005, min(0.016, 0.14 * radius))
     if corners:
         low, lid = square(radius, seat - plate, seat), square(radius, seat, seat + plate)
-        spread = 1.05 * radius
-        count = 4
+        spread, count = 1.05 * radius, 4
     else:
-        low = cylinder(radius, seat - plate, seat, n)
-        lid = cylinder(radius, seat, seat + plate, n)
+        low, lid = cylinder(radius, seat - plate, seat, n), cylinder(radius, seat, seat + plate, n)
         spread = radius - 1.1 * thread
     top = [lid]
     if hood:
+        low_hood, rise = seat + 0.6 * plate, hood + 0.4 * plate
         shares = np.linspace(0, np.pi / 2, 4)[:-1]
-        top.append(
-            turned(
-                [(0.72 * radius * np.cos(a), seat + 0.6 * plate + (hood + 0.4 * plate) * np.sin(a)) for a in shares]
-                + [(0.1 * radius, seat + plate + hood)],
-                n,
-            )
-        )
+        shell = [(0.72 * radius * np.cos(a), low_hood + rise * np.sin(a)) for a in shares]
+        top.append(turned([*shell, (0.1 * radius, seat + plate + hood)], n))
     bolts = bolt_circle(count, spread, thread, seat - plate, seat + plate)
-    return [body(low), bonnet(*top), bolting(bolts)]
+    return [
+        Part(low, BODY, "valve", BODY),
+        Part(merge(top), "valve bonnet", "valve", BODY),
+        Part(bolts, "bolt", "fastener", BODY, "Connection assembly", True),
+    ]
 
 
 def screwed(
@@ -135,6 +80,11 @@ def screwed(
     end = end or 0.24 * length
     middle = along("x", turned(core, style.round(max(r for r, _ in core))))
     return merge([hex_end(dn, 0.0, end, style, corners), middle, hex_end(dn, length - end, length, style, corners)])
+
+
+def threaded_run(t: Table, length: float, *core: tuple[float, float], end: float = 0.24) -> Solid:
+    """The same for a valve on a table; the core's places, and the length of an end, as shares of the length."""
+    return screwed(t.dn, t.style, length, [(radius, share * length) for radius, share in core], end=end * length)
 
 
 def spring(radius: float, wire: float, low: float, high: float, turns: int, style: ModelingStyle) -> Solid:
@@ -169,7 +119,7 @@ def bend(points: Sequence[Sequence[float]], corner: float, steps: int = 4) -> Fl
     return np.array(apart)
 
 
-def chain(start: Sequence[float], end: Sequence[float], sag: float, wire: float) -> Solid:
+def chain(start: Sequence[float] | Floats, end: Sequence[float] | Floats, sag: float, wire: float) -> Solid:
     """A small chain hanging between two points, as links in turn [m]."""
     a, b = np.asarray(start, float), np.asarray(end, float)
     path = [a + (b - a) * t - np.array([0, 0, 4 * sag * t * (1 - t)]) for t in np.linspace(0, 1, 7)]

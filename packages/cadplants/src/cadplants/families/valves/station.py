@@ -2,362 +2,305 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
-from cadplants.families.valves.drive import drive, stem, wheel
-from cadplants.families.valves.parts import SMALL, bend, body, bonnet, chain, fronted, other, piece, square
-from cadplants.families.valves.valve import valve_family
-from cadplants.family import Family, Model, Part, placed
-from cadplants.mesh_ops import Solid, merge, moved, tube
-from cadplants.modeling_style import ModelingStyle
+from cadplants.builder.device import families_of
+from cadplants.builder.params import Params, among, between, chance, given, nested, several, whole
+from cadplants.builder.table import Table, outline
+from cadplants.families.valves.base import BOTH, standing
+from cadplants.families.valves.drive import Wheel, drive_of, put_spindle
+from cadplants.families.valves.parts import SMALL, bend, chain, square
+from cadplants.families.valves.valve import Valve
+from cadplants.family import Model
+from cadplants.mesh_ops import merge, moved, tube
 from cadplants.primitives import along, around, ball, box, cylinder, hexagon, ring, rope, turned
 from cadplants.standards import PIPES
 from cadplants.transforms import at, spun
 
 __all__ = ["STATIONS"]
 
-_FRAME, _PIPE, _FIX = "Structural element", "Pipe assembly", "Connection assembly"
+_KNOBS = ("bar", "knob", "wheel")
+_ABOUT_KNOB = "what turns a needle"
+_SQUARE_POST = "the post is square"
 
 
-def _foot(x: float, y: float, high: float, half: float, rng: np.random.Generator) -> list[Part]:
+class _Station(Valve, place="floor", sizes=SMALL):
+    """A valve with what it is fixed to."""
+
+
+def _foot(t: Table, high: float, angular: bool) -> None:
     """A post on a base plate from the floor up to a height [m]."""
-    if rng.random() < 0.5:
-        pole = box((2 * half, 2 * half, high - 0.01), (x, y, (high + 0.01) / 2))
-    else:
-        pole = moved(cylinder(half, 0.01, high, 12), at(x, y))
-    return [
-        other(_FRAME, "post", "steel", pole),
-        other(_FRAME, "base plate", "steel", box((5 * half, 5 * half, 0.01), (x, y, 0.005))),
-    ]
+    half = 0.02
+    pole = box((2 * half, 2 * half, high - 0.01), (0, 0, (high + 0.01) / 2))
+    t.add("post", pole if angular else cylinder(half, 0.01, high, 12))
+    t.add("base plate", box((5 * half, 5 * half, 0.01), (0, 0, 0.005)))
 
 
-def _riser(dn: int, high: float, style: ModelingStyle, rng: np.random.Generator) -> tuple[list[Part], float]:
-    """A wall with a rosette, or a pipe clamped to a post; also where a tap upon it begins along y [m]."""
-    r, inner = PIPES[dn].radius, PIPES[dn].bore if style.hollow else 0.0
-    n = style.round(r)
-    if rng.random() < 0.4:
-        wall = box((0.8, 0.12, high + 0.5), (0, -0.06, (high + 0.5) / 2))
-        plate = turned([(2.2 * r, 0.0), (2.0 * r, 0.006), (1.2 * r, 0.01)], n)
-        rosette = other(_PIPE, "flange", "trim", along("y", plate, 0, 0, high))
-        return [other(_FRAME, "wall", "concrete", wall), rosette], 0.0095
-    path = bend([(0, 0, 0.0), (0, 0, high), (0, 2.2 * r, high)], 1.8 * r, 6)
-    parts = [other(_PIPE, "pipe", "pipe", tube(path, r, inner, n))]
-    parts += _foot(0.0, -r - 0.021, high - 0.1, 0.02, rng)
-    band = ring(r, r + 0.003, -0.012, 0.012, n)
-    strap = box((2 * r + 0.03, 0.003, 0.024), (0, -r - 0.0005, 0))
-    for z in (0.35 * high, 0.75 * high):
-        parts.append(other(_FIX, "clamp", "clamp", moved(merge([band, strap]), at(0, 0, z))))
-    return parts, 2.2 * r - 0.001
+class _Riser(Params):
+    """A wall with a rosette, or a pipe clamped to a post."""
+
+    walled: bool = chance(0.4, "out of a wall, not on a pipe at a post")
+    angular: bool = chance(0.5, _SQUARE_POST, when=lambda p: not p.walled)
+
+    def build(self, t: Table, size: int, high: float) -> float:
+        """Puts it down, for a nominal size; returns where a tap upon it begins along y [m]."""
+        r, inner = PIPES[size].radius, PIPES[size].bore if t.style.hollow else 0.0
+        n = t.n(r)
+        if self.walled:
+            t.add("wall", box((0.8, 0.12, high + 0.5), (0, -0.06, (high + 0.5) / 2)))
+            rosette = turned(outline(2.2 * r, 0.0, 2.0 * r, 0.006, 1.2 * r, 0.01), n)
+            t.at(0, 0, high).along("y").add("flange", rosette, of="trim")
+            return 0.0095
+        t.add("pipe", tube(bend([(0, 0, 0.0), (0, 0, high), (0, 2.2 * r, high)], 1.8 * r, 6), r, inner, n))
+        _foot(t.at(0, -r - 0.021), high - 0.1, self.angular)
+        strap = box((2 * r + 0.03, 0.003, 0.024), (0, -r - 0.0005, 0))
+        for f in (0.35, 0.75):
+            t.at(0, 0, f * high).add("clamp", ring(r, r + 0.003, -0.012, 0.012, n), strap)
+        return 2.2 * r - 0.001
 
 
-def _bibb(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class HoseTap(_Station, name="hose tap/bent spout"):
     """A hose tap (EN 200) with a bent spout on a riser clamped to a post or led through a wall; wheel, lever or T."""
-    dn = int(rng.choice([15, 20, 25]))
-    r = PIPES[dn].radius
-    n, high = style.round(r), float(rng.uniform(0.5, 1.1))
-    parts, start = _riser(dn, high, style, rng)
-    y = start + 2.6 * r
-    shank = along(
-        "y", merge([cylinder(0.95 * r, start, y, n), hexagon(2.6 * r, start + 0.2 * r, start + 1.4 * r)]), 0, 0, high
-    )
-    chest = moved(
-        turned([(0.9 * r, -1.2 * r), (1.35 * r, -0.6 * r), (1.35 * r, 0.9 * r), (1.0 * r, 1.5 * r)], n), at(0, y, high)
-    )
-    far = y + float(rng.uniform(2.5, 4.5)) * r
-    spout = rope(bend([(0, y, high), (0, far, high), (0, far, high - 4 * r)], 2.2 * r, 6), 0.85 * r, n)
-    tip = [ring(0.6 * r, 1.15 * r, high - 5.2 * r, high - 3.9 * r, n)]
-    if rng.random() < 0.6:
-        tip.append(
-            turned(
-                [
-                    (0.7 * r, high - 7.5 * r),
-                    (0.9 * r, high - 6.6 * r),
-                    (0.75 * r, high - 6.5 * r),
-                    (0.9 * r, high - 5.8 * r),
-                    (0.8 * r, high - 5.1 * r),
-                ],
-                n,
-            )
-        )
-    parts.append(body(shank, chest, spout, *(moved(t, at(0, far)) for t in tip)))
-    top = high + 1.5 * r
-    if rng.random() < 0.6:
-        parts.append(
-            moved_one(
-                bonnet(hexagon(2.2 * r, top - 0.001, top + 1.0 * r), cylinder(0.8 * r, top, top + 1.8 * r, n)), at(0, y)
-            )
-        )
-        parts.append(moved_one(piece("gland", hexagon(1.3 * r, top + 1.7 * r, top + 2.4 * r)), at(0, y)))
-        parts += placed(
-            [
-                stem(top + 2.3 * r, top + 4.2 * r, 0.3 * r, style),
-                wheel(0.012 + float(rng.uniform(1.2, 2.0)) * r, 0, top + 3.4 * r, style, rng),
-            ],
-            at(0, y),
-        )
-    else:
-        parts.append(moved_one(piece("valve stem", cylinder(0.5 * r, top - 0.002, top + 0.6 * r, 10)), at(0, y)))
-        parts += placed(drive(0.0, top + 0.5 * r, r, style, rng, ("lever", "wing", "bar")), at(0, y))
-    return Model(fronted(parts), kind="ball valve")
 
+    size: int = among((15, 20, 25), "nominal size of its pipe", "mm")
+    high: float = between(0.5, 1.1, "height of the tap", "m")
+    riser: _Riser = nested(_Riser, "what it is fixed to")
+    spout: float = between(2.5, 4.5, "reach of the spout / radius of the pipe")
+    barbed: bool = chance(0.6, "a barbed nozzle for a hose")
+    wheeled: bool = chance(0.6, "a wheel on a stem rather than a lever")
+    wide: float = between(1.2, 2.0, "radius of the wheel / of the pipe", when=lambda p: p.wheeled)
+    wheel: Wheel = nested(Wheel, "handwheel", when=lambda p: p.wheeled)
+    lever: Any = drive_of("lever", "wing", "bar", radius=lambda p: PIPES[p.size].radius, when=lambda p: not p.wheeled)
 
-def moved_one(part: Part, pose: np.ndarray) -> Part:
-    """One part moved by a pose."""
-    return placed([part], pose)[0]
-
-
-def _needles(x: float, z: float, r: float, style: ModelingStyle, rng: np.random.Generator, knob: int) -> list[Part]:
-    """A valve's headwork along z on a block: bonnet, gland, stem, T bar, knob or wheel."""
-    parts = [
-        bonnet(hexagon(2.2 * r, -0.001, 1.6 * r), cylinder(0.8 * r, 1.5 * r, 3.2 * r, 12)),
-        piece("gland", hexagon(1.5 * r, 3.1 * r, 4.0 * r)),
-        piece("valve stem", cylinder(0.35 * r, 3.9 * r, 6.6 * r, 8)),
-    ]
-    if knob == 0:
-        parts += drive(0.0, 6.0 * r, r, style, rng, ("bar",))
-    elif knob == 1:
-        grip = turned([(1.2 * r, 5.4 * r), (1.6 * r, 5.8 * r), (1.6 * r, 7.2 * r), (1.2 * r, 7.5 * r)], 10)
-        parts.append(piece("handwheel", grip, color="handle", bundle=""))
-    else:
-        parts.append(wheel(0.012 + 1.5 * r, 0, 5.8 * r, style, rng))
-    return placed(parts, at(x, 0, z))
-
-
-def _pipe_post(
-    wide: float, tall: float, deep: float, high: float, style: ModelingStyle, rng: np.random.Generator
-) -> list[Part]:
-    """A pipe post behind a block, with a bracket between them held by u-bolts."""
-    pipe = float(rng.choice([0.0302, 0.024]))
-    parts = [other(_FRAME, "post", "steel", moved(cylinder(pipe, 0.01, high + 0.2, style.round(pipe)), at(0, 0.12)))]
-    parts.append(other(_FRAME, "base plate", "steel", box((0.2, 0.2, 0.01), (0, 0.12, 0.005))))
-    back = 0.12 - pipe
-    gap = back - deep / 2
-    bracket = [
-        box((min(wide, 0.09), 0.005, tall + 0.04), (0, back - 0.0025, high)),
-        box((0.05, gap, 0.006), (0, deep / 2 + gap / 2, high + tall / 2 - 0.004)),
-        box((0.05, gap, 0.006), (0, deep / 2 + gap / 2, high - tall / 2 + 0.004)),
-    ]
-    parts.append(other(_FIX, "bracket", "steel", merge(bracket)))
-    bow = bend(
-        [
-            (0.0, back - 0.012, 0),
-            (pipe + 0.006, back - 0.012, 0),
-            (pipe + 0.006, 0.12 + pipe + 0.006, 0),
-            (-pipe - 0.006, 0.12 + pipe + 0.006, 0),
-            (-pipe - 0.006, back - 0.012, 0),
-        ][1:],
-        pipe,
-        4,
-    )
-    for z in (high + tall / 2 + 0.008, high - tall / 2 - 0.008):
-        parts.append(other(_FIX, "u-bolt", "fastener", moved(rope(bow, 0.004, 6), at(0, 0, z))))
-    return parts
-
-
-def _manifold(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
-    """An instrument manifold (IEC 61518 spacing) of two, three or five valves on a pipe post, with impulse tubes."""
-    count, r = int(rng.choice([2, 3, 5])), float(rng.uniform(0.008, 0.011))
-    high, knob = float(rng.uniform(0.9, 1.5)), int(rng.integers(3))
-    wide, tall, deep = 0.054 + 0.03 * count, float(rng.uniform(0.05, 0.09)), 0.032
-    block = [box((wide, deep, tall), (0, 0, high))]
-    if rng.random() < 0.5:
-        block += [along("y", square(0.024, deep / 2 - 0.001, deep / 2 + 0.012), x, 0, high) for x in (-0.027, 0.027)]
-    parts = [body(*block)]
-    if count == 2:
-        spots = [(-0.25 * wide, 0.0), (0.25 * wide, 0.0)]
-    elif count == 3:
-        spots = [(-0.33 * wide, 0.0), (0.0, 0.0), (0.33 * wide, 0.0)]
-    else:
-        spots = [
-            (-0.36 * wide, 0.2 * tall),
-            (0.0, 0.2 * tall),
-            (0.36 * wide, 0.2 * tall),
-            (-0.18 * wide, -0.28 * tall),
-            (0.18 * wide, -0.28 * tall),
-        ]
-    slope = bool(count < 5 and rng.random() < 0.5)
-    for x, z in spots:
-        outward = spun("x", np.pi / 2)
-        if slope and abs(x) > 0.01:
-            pose = at(np.sign(x) * wide / 2, 0, high + z) @ spun("y", float(np.sign(x)) * np.pi / 2)
+    def build(self, t: Table) -> Model:
+        r, high = PIPES[self.size].radius, self.high
+        n, start = t.n(r), self.riser.build(t, self.size, high)
+        y, far = start + 2.6 * r, start + 2.6 * r + self.spout * r
+        shank = [cylinder(0.95 * r, start, y, n), hexagon(2.6 * r, start + 0.2 * r, start + 1.4 * r)]
+        chest = turned(outline(0.9 * r, -1.2 * r, 1.35 * r, -0.6 * r, 1.35 * r, 0.9 * r, 1.0 * r, 1.5 * r), n)
+        path = [(0, y, 0), (0, far, 0), (0, far, -4 * r)]
+        tip = [ring(0.6 * r, 1.15 * r, -5.2 * r, -3.9 * r, n)]
+        if self.barbed:
+            marks = ((0.7, -7.5), (0.9, -6.6), (0.75, -6.5), (0.9, -5.8), (0.8, -5.1))
+            tip.append(turned([(a * r, z * r) for a, z in marks], n))
+        up = t.at(0, 0, high)
+        tap = [along("y", merge(shank)), moved(chest, at(0, y)), rope(bend(path, 2.2 * r, 6), 0.85 * r, n)]
+        up.add("valve body", *tap, *(moved(solid, at(0, far)) for solid in tip))
+        up = up.at(0, y, 1.5 * r)
+        if self.wheeled:
+            up.add("valve bonnet", hexagon(2.2 * r, -0.001, 1.0 * r), cylinder(0.8 * r, 0, 1.8 * r, n))
+            up.add("gland", hexagon(1.3 * r, 1.7 * r, 2.4 * r))
+            put_spindle(up, 2.3 * r, 4.2 * r, 0.3 * r)
+            self.wheel.build(up, 0.012 + self.wide * r, 3.4 * r)
         else:
-            pose = at(x, -deep / 2, high + z) @ outward
-        parts += placed(_needles(0.0, 0.0, r, style, rng, 1 if count == 5 else knob), pose)
-    parts += _pipe_post(wide, tall, deep, high, style, rng)
-    for x in (-0.027, 0.027):
-        fit = along(
-            "-z",
-            merge([hexagon(0.019, -0.001, 0.018), hexagon(0.016, 0.02, 0.034), cylinder(0.008, 0.0, 0.03, 10)]),
-            x,
-            0,
-            high - tall / 2,
-        )
-        foot = float(rng.uniform(0.1, 0.5))
-        path = bend([(x, 0, high - tall / 2 - 0.03), (x, 0, foot), (x, -0.5, foot)], 0.04)
-        parts += [body(fit), other(_PIPE, "pipe", "pipe", tube(path, 0.006, 0.0045 if style.hollow else 0.0, 8))]
-    return Model(fronted(parts), kind="needle valve")
+            up.add("valve stem", cylinder(0.5 * r, -0.002, 0.6 * r, 10))
+            self.lever.build(up.at(0, 0, 0.5 * r))
+        return standing(t, "ball valve")
 
 
-def _panel(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class _Needle(Params):
+    """A valve's headwork on a block: bonnet, gland, stem, T bar, knob or wheel."""
+
+    knob: str = given("bar", _ABOUT_KNOB)
+    radius: float = given(0.01, "that it is scaled by", "m")
+    bar: Any = drive_of("bar", radius=lambda p: p.radius, when=lambda p: p.knob == "bar")
+    wheel: Wheel = nested(Wheel, "handwheel", when=lambda p: p.knob == "wheel")
+
+    def build(self, t: Table) -> None:
+        """Puts it down on z = 0."""
+        r = self.radius
+        t.add("valve bonnet", hexagon(2.2 * r, -0.001, 1.6 * r), cylinder(0.8 * r, 1.5 * r, 3.2 * r, 12))
+        t.add("gland", hexagon(1.5 * r, 3.1 * r, 4.0 * r))
+        t.add("valve stem", cylinder(0.35 * r, 3.9 * r, 6.6 * r, 8))
+        if self.knob == "bar":
+            self.bar.build(t.at(0, 0, 6.0 * r))
+        elif self.knob == "knob":
+            t.add(
+                "handwheel", turned(outline(1.2 * r, 5.4 * r, 1.6 * r, 5.8 * r, 1.6 * r, 7.2 * r, 1.2 * r, 7.5 * r), 10)
+            )
+        else:
+            self.wheel.build(t, 0.012 + 1.5 * r, 5.8 * r)
+
+
+# Where the valves of manifolds are, as places / width and heights / height of the block.
+_SPOTS = {
+    2: ((-0.25, 0.0), (0.25, 0.0)),
+    3: ((-0.33, 0.0), (0.0, 0.0), (0.33, 0.0)),
+    5: ((-0.36, 0.2), (0.0, 0.2), (0.36, 0.2), (-0.18, -0.28), (0.18, -0.28)),
+}
+
+
+class Manifold(_Station, name="needle valve/manifold"):
+    """An instrument manifold (IEC 61518 spacing) of two, three or five valves on a pipe post, with impulse tubes."""
+
+    count: int = among((2, 3, 5), "valves")
+    core: float = between(0.008, 0.011, "radius of a valve", "m")
+    high: float = between(0.9, 1.5, "height of the block's middle", "m")
+    knob: str = among(_KNOBS, _ABOUT_KNOB + ", but for five valves, which have knobs")
+    tall: float = between(0.05, 0.09, "height of the block", "m")
+    flanged: bool = chance(0.5, "square flanges for the instrument")
+    ends: bool = chance(0.5, "the outer valves are on the block's ends", when=lambda p: p.count < 5)
+    needles: tuple[_Needle, ...] = several(
+        lambda rng, p: _Needle.draw(rng, {"knob": "knob" if p.count == 5 else p.knob, "radius": p.core}),
+        lambda p: p.count,
+        "headworks of the valves",
+    )
+    post: float = among((0.0302, 0.024), "radius of the pipe post", "m")
+    feet: tuple[float, ...] = several(
+        lambda rng, _: float(rng.uniform(0.1, 0.5)), lambda _: 2, "heights at which the tubes lead away", "m"
+    )
+
+    def build(self, t: Table) -> Model:
+        wide, tall, deep, up = 0.054 + 0.03 * self.count, self.tall, 0.032, t.at(0, 0, self.high)
+        block = [box((wide, deep, tall))]
+        if self.flanged:
+            block += [along("y", square(0.024, deep / 2 - 0.001, deep / 2 + 0.012), x) for x in (-0.027, 0.027)]
+        up.add("valve body", *block)
+        for (f, h), needle in zip(_SPOTS[self.count], self.needles, strict=True):
+            side = float(np.sign(f))
+            if self.ends and side:
+                needle.build(up.at(side * wide / 2, 0, h * tall).spun("y", side * np.pi / 2))
+            else:
+                needle.build(up.at(f * wide, -deep / 2, h * tall).spun("x", np.pi / 2))
+        self._post(t, min(wide, 0.09), deep)
+        for x, foot in zip((-0.027, 0.027), self.feet, strict=True):
+            nuts = [hexagon(0.019, -0.001, 0.018), hexagon(0.016, 0.02, 0.034)]
+            up.at(x, 0, -tall / 2).along("-z").add("valve body", *nuts, cylinder(0.008, 0.0, 0.03, 10))
+            path = bend([(x, 0, self.high - tall / 2 - 0.03), (x, 0, foot), (x, -0.5, foot)], 0.04)
+            t.add("pipe", tube(path, 0.006, 0.0045 if t.style.hollow else 0.0, 8))
+        return standing(t, "needle valve")
+
+    def _post(self, t: Table, wide: float, deep: float) -> None:
+        """A pipe post behind the block, with a bracket between them held by u-bolts."""
+        pipe, high, tall = self.post, self.high, self.tall
+        t.at(0, 0.12).add("post", cylinder(pipe, 0.01, high + 0.2, t.n(pipe)))
+        t.at(0, 0.12).add("base plate", box((0.2, 0.2, 0.01), (0, 0, 0.005)))
+        back = 0.12 - pipe
+        gap, up = back - deep / 2, t.at(0, 0, high)
+        arms = [box((0.05, gap, 0.006), (0, deep / 2 + gap / 2, s * (tall / 2 - 0.004))) for s in (1, -1)]
+        up.add("bracket", box((wide, 0.005, tall + 0.04), (0, back - 0.0025, 0)), *arms, of="steel")
+        out, front, far = pipe + 0.006, back - 0.012, 0.12 + pipe + 0.006
+        bow = rope(bend([(out, front, 0), (out, far, 0), (-out, far, 0), (-out, front, 0)], pipe, 4), 0.004, 6)
+        for s in (1, -1):
+            up.at(0, 0, s * (tall / 2 + 0.008)).add("u-bolt", bow, of="fastener")
+
+
+class Panel(_Station, name="needle valve/panel", weight=0.7):
     """Needle valves in a panel: a sheet between posts, nuts and knobs before it, bodies and tubes behind."""
-    count, high = int(rng.integers(1, 4)), float(rng.uniform(1.0, 1.4))
-    wide, tall = 0.16 * count + 0.1, float(rng.uniform(0.25, 0.5))
-    sheet = box((wide, 0.004, tall), (0, 0, high))
-    parts = [other(_FRAME, "plate", "steel", sheet)]
-    for s in (-1, 1):
-        parts += _foot(s * (wide / 2 - 0.02), 0.022, high + tall / 2, 0.02, rng)
-    r, knob = float(rng.uniform(0.008, 0.012)), int(rng.integers(3))
-    k = int(rng.integers(count))
-    x = 0.16 * (k - (count - 1) / 2)
-    core = box((2.6 * r, 0.04, 2.6 * r), (x, 0.022, high))
-    core = merge([core, along("-y", cylinder(0.9 * r, -0.01, 0.0085, 12), x, 0, high)])  # through the sheet
-    ends = [
-        along(way, merge([hexagon(1.8 * r, 0.0, 3.0 * r), cylinder(0.8 * r, 0, 4 * r, 10)]), x, 0.024, high)
-        for way in ("z", "-z")
-    ]
-    front = placed(_needles(0.0, 0.0, r, style, rng, knob), at(x, -0.0085, high) @ spun("x", np.pi / 2))
-    nut = along("-y", hexagon(3.0 * r, 0.0018, 0.009), x, 0, high)
-    parts += [body(core, *ends), piece("gland", nut), *front]
-    for way in (1, -1):
-        path = bend(
-            [
-                (x, 0.024, high + way * 3.8 * r),
-                (x, 0.024, high + way * (tall / 2 + 0.03)),
-                (x, 0.3, high + way * (tall / 2 + 0.03)),
-            ],
-            0.02,
-        )
-        parts.append(other(_PIPE, "pipe", "pipe", tube(path, 0.6 * r, 0.45 * r if style.hollow else 0.0, 8)))
-    label = box((0.08, 0.001, 0.025), (x, -0.0025, high + 0.07))
-    parts.append(other("Electrical and safety", "sign", "dial", label))
-    return Model(fronted(parts), kind="needle valve")
+
+    count: int = whole(1, 3, "places for valves")
+    high: float = between(1.0, 1.4, "height of the panel's middle", "m")
+    tall: float = between(0.25, 0.5, "height of the panel", "m")
+    angular: tuple[bool, ...] = several(lambda rng, _: bool(rng.random() < 0.5), lambda _: 2, _SQUARE_POST)
+    core: float = between(0.008, 0.012, "radius of a valve", "m")
+    knob: str = among(_KNOBS, _ABOUT_KNOB)
+    spot: int = among(lambda p: tuple(range(p.count)), "which place has the valve")
+    needle: _Needle = nested(lambda s, p: _Needle.draw(s, {"knob": p.knob, "radius": p.core}), "headwork of the valve")
+
+    def build(self, t: Table) -> Model:
+        r, high, tall, wide = self.core, self.high, self.tall, 0.16 * self.count + 0.1
+        t.at(0, 0, high).add("plate", box((wide, 0.004, tall)))
+        for s, angular in zip(BOTH, self.angular, strict=True):
+            _foot(t.at(s * (wide / 2 - 0.02), 0.022), high + tall / 2, angular)
+        mid = t.at(0.16 * (self.spot - (self.count - 1) / 2), 0, high)
+        through = along("-y", cylinder(0.9 * r, -0.01, 0.0085, 12))  # the sheet
+        end = merge([hexagon(1.8 * r, 0.0, 3.0 * r), cylinder(0.8 * r, 0, 4 * r, 10)])
+        ends = [along(way, end, 0, 0.024) for way in ("z", "-z")]
+        mid.add("valve body", box((2.6 * r, 0.04, 2.6 * r), (0, 0.022, 0)), through, *ends)
+        mid.along("-y").add("gland", hexagon(3.0 * r, 0.0018, 0.009))
+        self.needle.build(mid.at(0, -0.0085).spun("x", np.pi / 2))
+        for s in (1, -1):
+            far = s * (tall / 2 + 0.03)
+            path = bend([(0, 0.024, s * 3.8 * r), (0, 0.024, far), (0, 0.3, far)], 0.02)
+            mid.add("pipe", tube(path, 0.6 * r, 0.45 * r if t.style.hollow else 0.0, 8))
+        mid.add("sign", box((0.08, 0.001, 0.025), (0, -0.0025, 0.07)), of="dial")
+        return standing(t, "needle valve")
 
 
-def _radiator(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class RadiatorValve(_Station, name="thermostatic valve/radiator"):
     """A thermostatic valve (EN 215) at a radiator on feet: angle body, union, ribbed head, pipe to the floor."""
-    wide, tall, deep = float(rng.uniform(0.5, 1.4)), float(rng.uniform(0.35, 0.75)), float(rng.uniform(0.05, 0.11))
-    low = float(rng.uniform(0.1, 0.18))
-    panels = [box((wide, 0.012, tall), (0, s * (deep / 2 - 0.006), low + tall / 2)) for s in (-1, 1)]
-    count = int(wide / 0.06)
-    fins = [
-        box((0.035, deep - 0.02, tall - 0.06), (x, 0, low + tall / 2))
-        for x in np.linspace(-wide / 2 + 0.03, wide / 2 - 0.03, count)
-    ]
-    lid = box((wide, deep, 0.01), (0, 0, low + tall + 0.004))
-    parts = [other("Equipment", "radiator", "tank", merge([*panels, *fins, lid]))]
-    feet = merge([box((0.04, deep, low + 0.01), (s * 0.35 * wide, 0, (low + 0.01) / 2)) for s in (-1, 1)])
-    parts.append(other(_FIX, "bracket", "steel", feet))
-    upper = bool(rng.integers(2))
-    z, r, x = (low + tall - 0.05 if upper else low + 0.05), 0.0107, wide / 2
-    n = style.round(1.5 * r)
-    nut = along("x", merge([hexagon(0.030, 0.012, 0.030), cylinder(0.011, -0.02, 0.03, n)]), x, 0, z)
-    parts.append(other(_PIPE, "union", "trim", nut, own=True))
-    cx = x + 0.05
-    solids = [
-        along("x", cylinder(0.012, 0.029, 0.05, n), x, 0, z),
-        moved(ball(0.0155, 12), at(cx, 0, z)),
-        along("-z", merge([cylinder(0.012, 0.0, 0.034, n), hexagon(0.027, 0.022, 0.040)]), cx, 0, z),
-    ]
-    parts.append(body(*solids))
-    pose = at(cx, 0, z) @ (spun("y", np.pi / 2) if rng.random() < 0.6 else np.eye(4))
-    if rng.random() < 0.25:
-        pose = at(cx, 0, z) @ spun("x", np.pi / 2)
-    tip, long = 0.016 + 0.008 * float(rng.random()), float(rng.uniform(0.045, 0.075))
-    head = [
-        turned(
-            [
-                (0.016, 0.026),
-                (0.021, 0.034),
-                (tip, 0.034 + 0.6 * long),
-                (0.8 * tip, 0.034 + long),
-                (0.3 * tip, 0.036 + long),
-            ],
-            n,
-        )
-    ]
-    ribs = int(rng.choice([0, 8, 14]))
-    if ribs:
-        head.append(around(box((0.004, 0.003, 0.6 * long), (0, 0, 0.036 + 0.4 * long)), ribs, 0.9 * tip + 0.002))
-    collar = merge([cylinder(0.011, 0.008, 0.02, n), hexagon(0.030, 0.0165, 0.027)])
-    parts += [
-        piece("gland", moved(collar, pose)),
-        piece("actuator", moved(merge(head), pose), color="dial", bundle="actuator"),
-    ]
-    drop = tube(np.array([[cx, 0, z - 0.038], [cx, 0, 0.0]]), 0.009, 0.0075 if style.hollow else 0.0, n)
-    parts.append(other(_PIPE, "pipe", "pipe", drop))
-    other_end = -wide / 2
-    back = bend(
-        [(other_end + 0.025, 0, low + 0.05), (other_end - 0.05, 0, low + 0.05), (other_end - 0.05, 0, 0.0)], 0.015
-    )
-    parts.append(other(_PIPE, "pipe", "pipe", tube(back, 0.009, 0.0075 if style.hollow else 0.0, n)))
-    return Model(fronted(parts), kind="thermostatic valve")
+
+    width: float = between(0.5, 1.4, "of the radiator", "m")
+    height: float = between(0.35, 0.75, "of the radiator", "m")
+    depth: float = between(0.05, 0.11, "of the radiator", "m")
+    low: float = between(0.1, 0.18, "height of the radiator's underside", "m")
+    upper: bool = among((False, True), "the valve is above, not below")
+    level: bool = chance(0.6, "its head points along the radiator, not upwards")
+    forward: bool = chance(0.25, "its head points forward instead")
+    tip: float = between(0.016, 0.024, "radius of the head's tip", "m")
+    long: float = between(0.045, 0.075, "length of the head", "m")
+    ribs: int = among((0, 8, 14), "ribs of the head")
+
+    def build(self, t: Table) -> Model:
+        wide, tall, deep, low, inner = self.width, self.height, self.depth, self.low, 0.0075 * t.style.hollow
+        panels = [box((wide, 0.012, tall), (0, s * (deep / 2 - 0.006), low + tall / 2)) for s in BOTH]
+        spots = np.linspace(-wide / 2 + 0.03, wide / 2 - 0.03, int(wide / 0.06))
+        fins = [box((0.035, deep - 0.02, tall - 0.06), (x, 0, low + tall / 2)) for x in spots]
+        t.add("radiator", *panels, *fins, box((wide, deep, 0.01), (0, 0, low + tall + 0.004)), of="tank")
+        feet = [box((0.04, deep, low + 0.01), (s * 0.35 * wide, 0, (low + 0.01) / 2)) for s in BOTH]
+        t.add("bracket", *feet, of="steel")
+        n, z = t.n(1.5 * 0.0107), low + tall - 0.05 if self.upper else low + 0.05
+        side, mid = t.at(wide / 2, 0, z), t.at(wide / 2 + 0.05, 0, z)
+        side.along("x").add("union", hexagon(0.030, 0.012, 0.030), cylinder(0.011, -0.02, 0.03, n), own=True)
+        under = merge([cylinder(0.012, 0.0, 0.034, n), hexagon(0.027, 0.022, 0.040)])
+        mid.add("valve body", along("x", cylinder(0.012, -0.021, 0, n)), ball(0.0155, 12), along("-z", under))
+        head = mid.spun("x", np.pi / 2) if self.forward else mid.along("x") if self.level else mid
+        tip, long = self.tip, self.long
+        grip = outline(0.016, 0.026, 0.021, 0.034, tip, 0.034 + 0.6 * long, 0.8 * tip, 0.034 + long)
+        solids = [turned([*grip, (0.3 * tip, 0.036 + long)], n)]
+        if self.ribs:
+            rib = box((0.004, 0.003, 0.6 * long), (0, 0, 0.036 + 0.4 * long))
+            solids.append(around(rib, self.ribs, 0.9 * tip + 0.002))
+        head.add("gland", cylinder(0.011, 0.008, 0.02, n), hexagon(0.030, 0.0165, 0.027))
+        head.bundled("actuator").add("actuator", *solids, of="dial", own=True)
+        mid.add("pipe", tube(np.array([[0, 0, -0.038], [0, 0, -z]]), 0.009, inner, n))
+        back = bend([(0.025, 0, low + 0.05), (-0.05, 0, low + 0.05), (-0.05, 0, 0.0)], 0.015)
+        t.at(-wide / 2).add("pipe", tube(back, 0.009, inner, n))
+        return standing(t, "thermostatic valve")
 
 
-def _hose_valve(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class HoseValve(_Station, name="hose valve/standpipe"):
     """A fire hose valve (BS 5041 or NFPA practice) on a standpipe: square or oblique, wheel, cap on a chain."""
-    dn, high = int(rng.choice([50, 65])), float(rng.uniform(0.8, 1.2))
-    r, main = PIPES[dn].radius, PIPES[int(rng.choice([80, 100]))].radius
-    n, m = style.round(1.4 * r), style.round(main)
-    inner = main - 0.006 if style.hollow else 0.0
-    parts = [other(_PIPE, "pipe", "pipe", ring(inner, main, 0.0, high + float(rng.uniform(0.4, 1.2)), m))]
-    wide = 1.35 * r
-    stub = along("-y", ring(0.8 * r if style.hollow else 0.0, r, 0.97 * main, main + 0.1, n), 0, 0, high)
-    parts.append(other(_PIPE, "nipple", "pipe", stub))
-    y = -main - 0.09 - 1.8 * wide
-    inlet = along(
-        "y", merge([cylinder(1.1 * r, 0.0, 1.8 * wide, n), hexagon(2.7 * r, 1.0 * wide, 1.8 * wide)]), 0, y, high
-    )
-    chest = moved(
-        turned(
-            [(0.9 * wide, -1.0 * wide), (1.1 * wide, -0.3 * wide), (1.1 * wide, 0.7 * wide), (0.8 * wide, 1.2 * wide)],
-            n,
-        ),
-        at(0, y, high),
-    )
-    tilt = spun("x", float(rng.choice([0.0, 0.75])))
-    mouth = at(0, y, high) @ tilt
-    out = along(
-        "-z",
-        turned(
-            [
-                (1.0 * r, 0.0),
-                (1.0 * r, 2.2 * wide),
-                (1.2 * r, 2.2 * wide),
-                (1.2 * r, 2.6 * wide),
-                (1.0 * r, 2.7 * wide),
-            ],
-            n,
-        ),
-    )
-    parts.append(body(inlet, chest, moved(out, mouth)))
-    cap = [
-        ring(0.0, 1.3 * r, 2.55 * wide, 3.1 * wide, n),
-        around(box((0.25 * r, 0.3 * r, 0.4 * wide), (0, 0, 2.8 * wide)), int(rng.choice([2, 3])), 1.35 * r),
-    ]
-    parts.append(other(_PIPE, "pipe cap", "trim", moved(along("-z", merge(cap)), mouth), own=True))
-    ends = [
-        moved(Solid(np.array([p]), np.zeros((0, 3), np.int32)), mouth).vertices[0]
-        for p in ([1.28 * r, 0, -2.8 * wide], [1.08 * wide, 0, 0.1 * wide])
-    ]
-    if rng.random() < 0.6:
-        parts.append(other(_PIPE, "pipe cap", "trim", chain(ends[0], ends[1], 0.03, 0.0018), own=True))
-    top = 1.2 * wide
-    head = [
-        bonnet(hexagon(1.8 * wide, top - 0.002, top + 0.5 * wide), cylinder(0.5 * wide, top, top + 1.2 * wide, n)),
-        piece("gland", hexagon(0.8 * wide, top + 1.15 * wide, top + 1.5 * wide)),
-    ]
-    head += [
-        stem(top + 1.45 * wide, top + 2.6 * wide, 0.16 * wide, style),
-        wheel(float(rng.uniform(1.5, 2.2)) * wide, 0, top + 2.1 * wide, style, rng),
-    ]
-    parts += placed(head, at(0, y, high))
-    return Model(fronted(parts), kind="globe valve")
+
+    size: int = among((50, 65), "nominal size of the valve", "mm")
+    high: float = between(0.8, 1.2, "height of the valve", "m")
+    main: int = among((80, 100), "nominal size of the standpipe", "mm")
+    rise: float = between(0.4, 1.2, "of the standpipe over the valve", "m")
+    tilt: float = among((0.0, 0.75), "of the mouth, forward", "rad")
+    lugs: int = among((2, 3), "lugs of the cap")
+    chained: bool = chance(0.6, "the cap hangs on a chain")
+    wide: float = between(1.5, 2.2, "radius of the wheel / of the chest")
+    wheel: Wheel = nested(Wheel, "handwheel")
+
+    def build(self, t: Table) -> Model:
+        r, main, high, hollow = PIPES[self.size].radius, PIPES[self.main].radius, self.high, t.style.hollow
+        n, w = t.n(1.4 * r), 1.35 * r
+        t.add("pipe", ring(main - 0.006 if hollow else 0.0, main, 0.0, high + self.rise, t.n(main)))
+        up = t.at(0, 0, high)
+        up.along("-y").add("nipple", ring(0.8 * r if hollow else 0.0, r, 0.97 * main, main + 0.1, n))
+        mid = up.at(0, -main - 0.09 - 1.8 * w)
+        mouth = mid.spun("x", self.tilt)
+        inlet = along("y", merge([cylinder(1.1 * r, 0.0, 1.8 * w, n), hexagon(2.7 * r, 1.0 * w, 1.8 * w)]))
+        chest = turned(outline(0.9 * w, -1.0 * w, 1.1 * w, -0.3 * w, 1.1 * w, 0.7 * w, 0.8 * w, 1.2 * w), n)
+        marks = ((1.0, 0.0), (1.0, 2.2), (1.2, 2.2), (1.2, 2.6), (1.0, 2.7))
+        out = along("-z", turned([(a * r, z * w) for a, z in marks], n))
+        turn = spun("x", self.tilt)
+        mid.add("valve body", inlet, chest, moved(out, turn))
+        lug = box((0.25 * r, 0.3 * r, 0.4 * w), (0, 0, 2.8 * w))
+        cap = [cylinder(1.3 * r, 2.55 * w, 3.1 * w, n), around(lug, self.lugs, 1.35 * r)]
+        mouth.along("-z").add("pipe cap", *cap, of="trim", own=True)
+        if self.chained:
+            spots = ((1.28 * r, 0, -2.8 * w, 1), (1.08 * w, 0, 0.1 * w, 1))
+            start, end = ((turn @ spot)[:3] for spot in spots)
+            mid.add("pipe cap", chain(start, end, 0.03, 0.0018), of="trim", own=True)
+        head = mid.at(0, 0, 1.2 * w)
+        head.add("valve bonnet", hexagon(1.8 * w, -0.002, 0.5 * w), cylinder(0.5 * w, 0, 1.2 * w, n))
+        head.add("gland", hexagon(0.8 * w, 1.15 * w, 1.5 * w))
+        put_spindle(head, 1.45 * w, 2.6 * w, 0.16 * w)
+        self.wheel.build(head, self.wide * w, 2.1 * w)
+        return standing(t, "globe valve")
 
 
-STATIONS: tuple[Family, ...] = (
-    valve_family("hose tap/bent spout", _bibb, SMALL, "floor"),
-    valve_family("needle valve/manifold", _manifold, SMALL, "floor"),
-    valve_family("needle valve/panel", _panel, SMALL, "floor", 0.7),
-    valve_family("thermostatic valve/radiator", _radiator, SMALL, "floor"),
-    valve_family("hose valve/standpipe", _hose_valve, SMALL, "floor"),
-)
+STATIONS = families_of(HoseTap, Manifold, Panel, RadiatorValve, HoseValve)

@@ -2,250 +2,214 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
-from cadplants.families.valves.actuation import quarter_turn
-from cadplants.families.valves.actuation_base import bolted, hand_lever, hand_wheel, shaft
-from cadplants.families.valves.actuation_hand import slab, span
-from cadplants.families.valves.ball import ball_inside, clamped_ends, ferrule, some_turn, stem_top
-from cadplants.families.valves.body import (
-    metal,
-    neck_of,
-    packing,
-    part_turned,
-    trim,
-    valve_ball,
-)  # fmt: skip
-from cadplants.families.valves.drive import BODY
+from cadplants.builder.device import families_of
+from cadplants.builder.params import Params, among, between, chance, nested, styled
+from cadplants.builder.table import Table, outline
+from cadplants.families.valves.actuation import operator
+from cadplants.families.valves.actuation_base import put_stem
+from cadplants.families.valves.actuation_hand import Handlever, Handwheel, levers, slab, span
+from cadplants.families.valves.ball import BallInside, ClampedEnds, StemTop, ferrule
+from cadplants.families.valves.base import BOTH, HOLLOW, sized
+from cadplants.families.valves.body import Packing, neck_of, part_turned, valve_ball
 from cadplants.families.valves.threaded import hex_end
-from cadplants.families.valves.valve import valve_family
-from cadplants.family import Family, Model, Part, placed
+from cadplants.families.valves.valve import Valve
+from cadplants.family import Model
 from cadplants.mesh_ops import Solid, about_x, merge, moved
-from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle
 from cadplants.primitives import along, around, ball, box, cylinder, hexagon, ring
-from cadplants.standards import FACE_TO_FACE, FLANGES, PIPES, SIZES
+from cadplants.standards import FACE_TO_FACE
 from cadplants.transforms import at, spun
 from cadplants.valve_body import bore_of
 
 __all__ = ["UNIONS"]
 
-Rng = np.random.Generator
+
+class _Ball(Valve):
+    """A ball valve that is welded or screwed into its line."""
+
+    hollow: bool = styled(True, HOLLOW)
+
+    def done(self, t: Table, length: float, kind: str = "ball valve") -> Model:
+        """What was put down, as a valve in a line."""
+        return t.model(round(length, 6), "welded", kind)
 
 
-def _sanitary(dn: int, style: ModelingStyle, rng: Rng) -> Model:
+class Sanitary(_Ball, name="ball valve/sanitary clamp", sizes=sized(15, 100)):
     """A sanitary three-piece ball valve with clamp ends, ferrules of the pipe and their clamps; a lever or actuator."""
-    radius = PIPES[dn].radius
-    stub, core = 0.03, 3.6 * radius + 0.06
-    length, x = core + 2 * stub, core / 2 + stub
-    big, half = 1.55 * radius + 0.008, 0.9 * radius + 0.008
-    n = max(16, style.round(big))
-    ends = [ferrule(dn, stub, x - half, style, True), ferrule(dn, x + half, length - stub, style, False)]
-    outline = rounded_rectangle(2 * big, 2 * big, 0.4 * big, 4) if rng.random() < 0.5 else circle(1.15 * big, n)
-    hole = (circle(0.95 * radius, n),) if style.hollow else ()
-    plates = [along("x", slab(outline, *span(x + s * (half - 0.012), x + s * (half + 0.002)), hole)) for s in (-1, 1)]
-    block = along("x", slab(circle(1.3 * radius + 0.006, n), x - half + 0.01, x + half - 0.01, hole))
-    rods = about_x(
-        around(
-            merge(
-                [
-                    cylinder(0.004, x - half - 0.006, x + half + 0.006, 8),
-                    hexagon(0.012, x + half + 0.002, x + half + 0.008),
-                ]
-            ),
-            4,
-            1.18 * big if len(outline) < 24 else 1.0 * big,
-            np.pi / 4,
-        )
-    )
-    parts = [
-        metal(merge([*ends, *plates, block]), 0.0, "clamp"),
-        bolted(rods),
-        *clamped_ends(dn, stub, length, style, rng),
-        *stem_top(x, 1.1 * radius, 1.3 * big + 0.01, radius, style, rng),
-        *ball_inside(dn, x, style, rng),
-        *quarter_turn(
-            x, 1.3 * big + 0.014 + 0.2 * radius, radius, style, rng, ("lever", "lever", "vertical", "rack", "motor box")
-        ),
-    ]
-    return Model(parts, round(length, 6), "welded", "ball valve")
+
+    square: bool = chance(0.5, "its middle is held between square plates, not round ones")
+    clamps: ClampedEnds = nested(ClampedEnds, "clamps at both ends")
+    top: StemTop = nested(StemTop, "neck of the stem")
+    ball: BallInside = nested(BallInside, "ball and seats", when=lambda p: p.hollow)
+    operator: Any = operator("lever", "lever", "vertical", "rack", "motor box")
+
+    def build(self, t: Table) -> Model:
+        r, stub, big, half = t.pipe.radius, 0.03, 1.55 * t.pipe.radius + 0.008, 0.9 * t.pipe.radius + 0.008
+        x = (3.6 * r + 0.06) / 2 + stub
+        n, up = t.n(big, 16), t.at(x)
+        hole = (circle(0.95 * r, n),) if self.hollow else ()
+        plate = rounded_rectangle(2 * big, 2 * big, 0.4 * big, 4) if self.square else circle(1.15 * big, n)
+        solids = [ferrule(t.dn, stub, x - half, t.style, True), ferrule(t.dn, x + half, 2 * x - stub, t.style, False)]
+        for s in BOTH:
+            solids.append(along("x", slab(plate, *span(x + s * (half - 0.012), x + s * (half + 0.002)), hole)))
+        solids.append(along("x", slab(circle(1.3 * r + 0.006, n), x - half + 0.01, x + half - 0.01, hole)))
+        t.add("valve body", *solids, of="clamp")
+        bolt = [cylinder(0.004, -half - 0.006, half + 0.006, 8), hexagon(0.012, half + 0.002, half + 0.008)]
+        bolts = around(merge(bolt), 4, (1.18 if len(plate) < 24 else 1.0) * big, np.pi / 4)
+        up.add("bolt", about_x(bolts))
+        self.clamps.build(t, t.dn, stub, 2 * x)
+        self.top.build(up, 1.1 * r, 1.3 * big + 0.01, r)
+        if self.ball:
+            self.ball.build(up, t.dn)
+        self.operator.build(up.at(0, 0, 1.3 * big + 0.014 + 0.2 * r))
+        return self.done(t, 2 * x)
 
 
-def _union_nut(radius: float, low: float, high: float, style: ModelingStyle, rng: Rng, inner: float) -> Solid:
-    """A plastic union nut along x with fluted or ribbed sides [m]."""
-    count = int(rng.choice([8, 12, 16]))
-    turns = np.arange(4 * count) * 2 * np.pi / (4 * count)
-    reach = radius * (1 + 0.05 * np.sign(np.cos(count * turns + 0.3)))
-    outline = np.column_stack([reach * np.cos(turns), reach * np.sin(turns)])
-    holes = (circle(inner, 24),)
-    return along("x", slab(outline, low, high, holes))
+class _UnionNut(Params):
+    """A plastic union nut with fluted or ribbed sides."""
+
+    ribs: int = among((8, 12, 16), "round the nut")
+
+    def solid(self, radius: float, low: float, high: float, inner: float) -> Solid:
+        """The nut about z, between two heights [m]."""
+        turns = np.arange(4 * self.ribs) * 2 * np.pi / (4 * self.ribs)
+        reach = radius * (1 + 0.05 * np.sign(np.cos(self.ribs * turns + 0.3)))
+        return slab(np.column_stack([reach * np.cos(turns), reach * np.sin(turns)]), low, high, (circle(inner, 24),))
 
 
-def _true_union(dn: int, style: ModelingStyle, rng: Rng) -> Model:
+class TrueUnion(_Ball, name="ball valve/true union", sizes=sized(15, 100)):
     """A plastic true-union ball valve: socket ends, two union nuts, a tee or wing handle, maybe feet (EN ISO 16135)."""
-    radius = PIPES[dn].radius
-    x = 2.3 * radius + 0.035
-    length, big = 2 * x, 1.55 * radius + 0.010
-    n = max(16, style.round(big))
-    inner = radius if style.hollow else 0.0
-    nut = float(rng.uniform(0.8, 1.1)) * radius + 0.012
-    parts = []
-    for s in (-1, 1):
-        face, start = x + s * x, x + s * (0.95 * radius + 0.004)
-        socket = along("x", ring(inner, 1.28 * radius + 0.002, *span(face, start), n))
-        parts.append(metal(socket))
-        far = start + s * nut
-        parts.append(
-            Part(
-                _union_nut(1.22 * big, *span(start, far), style, rng, 1.3 * radius + 0.002),
-                "union",
-                "valve",
-                BODY,
-                "Pipe assembly",
-            )
-        )
-    barrel = along("x", ring(0.9 * inner, big, x - 0.95 * radius - 0.006, x + 0.95 * radius + 0.006, n))
-    tower, high = 0.55 * radius + 0.007, big + 0.35 * radius + 0.008
-    neck = slab(rounded_rectangle(2.2 * tower, 2 * tower, 0.5 * tower, 3), 0.85 * big, high)
-    solids = [barrel, moved(neck, at(x))]
-    if rng.random() < 0.4:
-        solids.append(box((1.4 * radius, 1.2 * big, 0.3 * big), (x, 0, -1.05 * big)))
-    parts = [metal(merge(solids)), *parts, *ball_inside(dn, x, style, rng)]
-    rest = [shaft(-0.01, 0.012, 0.6 * tower, style)]
-    pick = rng.random()
-    if pick < 0.75:
-        rest.append(hand_lever(0.05 + 2.2 * radius, 0.003, style, rng, ("tee", "tee", "wing", "notched")))
-        parts += placed(rest, at(x, 0, high))
-    else:
-        parts += placed(rest, at(x, 0, high))
-        parts += quarter_turn(x, high + 0.006, radius, style, rng, ("rack", "motor box"))
-    return Model(parts, round(length, 6), "welded", "ball valve")
+
+    nut: float = between(0.8, 1.1, "length of a union nut / radius of the pipe")
+    first: _UnionNut = nested(_UnionNut, "union nut of the inlet")
+    second: _UnionNut = nested(_UnionNut, "union nut of the outlet")
+    footed: bool = chance(0.4, "a foot under it")
+    ball: BallInside = nested(BallInside, "ball and seats", when=lambda p: p.hollow)
+    by_hand: bool = chance(0.75, "a handle rather than an actuator")
+    handle: Handlever = nested(levers("tee", "tee", "wing", "notched"), "lever", when=lambda p: p.by_hand)
+    operator: Any = operator("rack", "motor box", when=lambda p: not p.by_hand)
+
+    def build(self, t: Table) -> Model:
+        r, x, big = t.pipe.radius, 2.3 * t.pipe.radius + 0.035, 1.55 * t.pipe.radius + 0.010
+        n, inner, nut, up = t.n(big, 16), r if self.hollow else 0.0, self.nut * r + 0.012, t.at(x)
+        tower, high, half = 0.55 * r + 0.007, big + 0.35 * r + 0.008, 0.95 * r + 0.006
+        neck = slab(rounded_rectangle(2.2 * tower, 2 * tower, 0.5 * tower, 3), 0.85 * big, high)
+        foot = [box((1.4 * r, 1.2 * big, 0.3 * big), (0, 0, -1.05 * big))] if self.footed else []
+        up.add("valve body", along("x", ring(0.9 * inner, big, -half, half, n)), neck, *foot)
+        for s, one in zip(BOTH, (self.first, self.second), strict=True):
+            start = s * (0.95 * r + 0.004)
+            up.along("x").add("valve body", ring(inner, 1.28 * r + 0.002, *span(s * x, start), n))
+            solid = one.solid(1.22 * big, *span(start, start + s * nut), 1.3 * r + 0.002)
+            up.along("x").add("union", solid, of="valve", own=True)
+        if self.ball:
+            self.ball.build(up, t.dn)
+        up = up.at(0, 0, high)
+        put_stem(up, -0.01, 0.012, 0.6 * tower)
+        if self.by_hand:
+            self.handle.build(up, 0.05 + 2.2 * r, 0.003)
+        else:
+            self.operator.build(up.at(0, 0, 0.006))
+        return self.done(t, 2 * x)
 
 
-def _multi_port(dn: int, style: ModelingStyle, rng: Rng) -> Model:
+class MultiPort(_Ball, name="ball valve/multi-port", sizes=sized(15, 50)):
     """A three- or four-way threaded ball valve (L or T bore): a cube or barrel with hexagon ends, lever above."""
-    radius = PIPES[dn].radius
-    length = 0.04 + 4.0 * radius
-    x, big = length / 2, 1.4 * radius + 0.008
-    n, end = max(16, style.round(big)), 0.24 * length
-    side = moved(hex_end(dn, 0.0, 1.05 * end + 0.3 * big, style), at(-x))
-    ways = [0.5] if rng.random() < 0.5 else ([0.5, -0.5] if rng.random() < 0.4 else [-0.5])
-    solids = [hex_end(dn, 0.0, end + 0.2 * big, style), hex_end(dn, length - end - 0.2 * big, length, style)]
-    solids += [moved(moved(side, spun("z", np.pi + w * np.pi)), at(x)) for w in ways]
-    middle = (
-        slab(rounded_rectangle(2 * big, 2 * big, 0.25 * big, 3), -big, big)
-        if rng.random() < 0.5
-        else moved(ball(1.2 * big, n), at())
-    )
-    solids.append(moved(middle, at(x)))
-    if rng.random() < 0.4:
+
+    one_side: bool = chance(0.5, "a third way to one side")
+    both_sides: bool = chance(0.4, "a third and a fourth way", when=lambda p: not p.one_side)
+    cube: bool = chance(0.5, "its middle is a cube, not a ball")
+    collared: bool = chance(0.4, "collars at its ends")
+    top: StemTop = nested(StemTop, "neck of the stem")
+    operator: Any = operator("lever", "lever", "rack", "motor box")
+
+    def build(self, t: Table) -> Model:
+        r, length, big = t.pipe.radius, 0.04 + 4.0 * t.pipe.radius, 1.4 * t.pipe.radius + 0.008
+        x, n, end, high = length / 2, t.n(big, 16), 0.24 * length, 1.25 * big + 0.008
+        side = moved(hex_end(t.dn, 0.0, 1.05 * end + 0.3 * big, t.style), at(-x))
+        turns = (1.5,) if self.one_side else (1.5, 0.5) if self.both_sides else (0.5,)
         solids = [
-            *solids,
-            *(
-                along("x", slab(circle(1.15 * big, 8, phase=np.pi / 8), *span(x + s * big, x + s * (big + 0.006))))
-                for s in (-1, 1)
-            ),
+            hex_end(t.dn, 0.0, end + 0.2 * big, t.style),
+            hex_end(t.dn, length - end - 0.2 * big, length, t.style),
         ]
-    high = 1.25 * big + 0.008
-    parts = [metal(merge(solids)), *stem_top(x, 0.9 * big, high, radius, style, rng)]
-    parts += quarter_turn(x, high + 0.004 + 0.2 * radius, radius, style, rng, ("lever", "lever", "rack", "motor box"))
-    return Model(parts, round(length, 6), "welded", "three-way valve")
+        solids += [moved(side, at(x) @ spun("z", f * np.pi)) for f in turns]
+        cube = slab(rounded_rectangle(2 * big, 2 * big, 0.25 * big, 3), -big, big)
+        solids.append(moved(cube if self.cube else ball(1.2 * big, n), at(x)))
+        if self.collared:
+            collar = circle(1.15 * big, 8, phase=np.pi / 8)
+            solids += [along("x", slab(collar, *span(x + s * big, x + s * (big + 0.006)))) for s in BOTH]
+        t.add("valve body", *solids)
+        self.top.build(t.at(x), 0.9 * big, high, r)
+        self.operator.build(t.at(x, 0, high + 0.004 + 0.2 * r))
+        return self.done(t, length, "three-way valve")
 
 
-def _cut_open(dn: int, style: ModelingStyle, rng: Rng) -> Model:
+class CutOpen(Valve, name="ball valve/cut open", sizes=sized(15, 150)):
     """A ball valve cut open for show: part of the body away, polished ball, seats, stem and lever in sight."""
-    radius, bore, size = PIPES[dn].radius, PIPES[dn].bore, FLANGES[dn]
-    length = FACE_TO_FACE["ball"][dn]
-    x, big = length / 2, 1.75 * radius + 0.01
-    n = max(8, style.round(big) * 3 // 4)
-    neck, back = neck_of(dn)
-    lip = float(rng.uniform(1.0, 1.2)) * big
-    outer = [
-        (size.outer / 2, 0.0),
-        (size.outer / 2, back),
-        (neck, back),
-        (big, 0.3 * length),
-        (lip, 0.32 * length),
-        (lip, 0.4 * length),
-        (big, 0.42 * length),
-        (big, 0.7 * length),
-        (neck, length - back),
-        (size.outer / 2, length - back),
-        (size.outer / 2, length),
-    ]
-    reach, hollow = min(1.3 * bore, 0.3 * length), min(1.5 * bore, 0.93 * big)
-    inner = [
-        (bore, length),
-        (bore, x + reach),
-        (hollow, x + 0.8 * reach),
-        (hollow, x - 0.8 * reach),
-        (bore, x - reach),
-        (bore, 0.0),
-    ]
-    gap = float(rng.uniform(0.4, 0.7)) * np.pi
-    shell = about_x(part_turned(np.array(outer + inner), 0.85 * np.pi + 0.5 * gap, 2.85 * np.pi - 0.5 * gap, n))
-    turn, ball_ = some_turn(rng), 1.42 * bore * 0.98
-    seat = along("x", ring(1.02 * bore, 1.2 * bore, 0.0, 0.15 * bore, max(16, n)))
-    far = float(np.sqrt(ball_**2 - (1.1 * bore) ** 2))
-    high = max(1.3 * big, 0.5 * size.outer) + 0.01
-    boss = 0.35 * radius + 0.008
-    rest: list[Part] = [
-        metal(ring(0.5 * boss, boss, 0.93 * big, high, 16)),
-        shaft(0.95 * ball_, high + 0.015, 0.45 * boss, style),
-        *placed(packing(0.45 * boss, style, rng, 1)[0], at(0, 0, high - 0.001)),
-        trim(valve_ball(ball_, bore, style, turn), "valve ball"),
-        *(Part(moved(seat, at(s)), "gasket", "rubber", BODY, "Pipe assembly") for s in (far, -far - 0.15 * bore)),
-    ]
-    drive = (
-        [hand_lever(0.1 + 2.2 * radius, 0.0, style, rng)]
-        if rng.random() < 0.8
-        else [hand_wheel(0.05 + radius, 0.0, style, rng)]
-    )
-    return Model(
-        [metal(shell), *placed([*rest, *placed(drive, at(0, 0, high + 1.2 * boss))], at(x))], length, kind="ball valve"
-    )
+
+    lip: float = between(1.0, 1.2, "radius of the joint / of the body")
+    gap: float = between(0.4, 0.7, "share of half a turn that is cut away")
+    turn: float = among((0.0, 0.0, np.pi / 4, np.pi / 2), "of the ball from open", "rad")
+    levered: bool = chance(0.8, "a lever rather than a wheel")
+    lever: Handlever = nested(Handlever, "lever", when=lambda p: p.levered)
+    wheel: Handwheel = nested(Handwheel, "handwheel", when=lambda p: not p.levered)
+
+    def build(self, t: Table) -> Model:
+        r, bore, rim, length = t.pipe.radius, t.pipe.bore, t.flange.outer / 2, FACE_TO_FACE["ball"][t.dn]
+        x, big, (neck, back) = length / 2, 1.75 * r + 0.01, neck_of(t.dn)
+        n, lip, far = max(8, t.n(big) * 3 // 4), self.lip * big, length - back
+        outer = outline(rim, 0.0, rim, back, neck, back, big, 0.3 * length, lip, 0.32 * length, lip, 0.4 * length)
+        outer += outline(big, 0.42 * length, big, 0.7 * length, neck, far, rim, far, rim, length)
+        reach, hollow = min(1.3 * bore, 0.3 * length), min(1.5 * bore, 0.93 * big)
+        inner = outline(
+            bore, length, bore, x + reach, hollow, x + 0.8 * reach, hollow, x - 0.8 * reach, bore, x - reach
+        )
+        open_ = 0.5 * self.gap * np.pi
+        shape = np.array([*outer, *inner, (bore, 0.0)])
+        t.add("valve body", about_x(part_turned(shape, 0.85 * np.pi + open_, 2.85 * np.pi - open_, n)))
+        up, size, boss = t.at(x), 1.42 * bore * 0.98, 0.35 * r + 0.008
+        high, inside = max(1.3 * big, rim) + 0.01, float(np.sqrt(size**2 - (1.1 * bore) ** 2))
+        up.add("valve body", ring(0.5 * boss, boss, 0.93 * big, high, 16))
+        put_stem(up, 0.95 * size, high + 0.015, 0.45 * boss)
+        Packing(form="nut", turn=0.0).build(up.at(0, 0, high - 0.001), 0.45 * boss)
+        up.add("valve ball", valve_ball(size, bore, t.style, self.turn))
+        for low in (inside, -inside - 0.15 * bore):
+            seat = ring(1.02 * bore, 1.2 * bore, low, low + 0.15 * bore, max(16, n))
+            up.along("x").add("gasket", seat, of="rubber", own=True)
+        up = up.at(0, 0, high + 1.2 * boss)
+        if self.levered:
+            self.lever.build(up, 0.1 + 2.2 * r)
+        else:
+            self.wheel.build(up, 0.05 + r)
+        return t.model(length, kind="ball valve")
 
 
-def _blocked(dn: int, style: ModelingStyle, rng: Rng) -> Model:
+class Block(_Ball, name="ball valve/block", sizes=sized(15, 50)):
     """A high-pressure block ball valve of hydraulics: a square steel block, screwed-in hexagon ends, a bent lever."""
-    radius = PIPES[dn].radius
-    block, end = 2.4 * radius + 0.02, 1.1 * radius + 0.012
-    length, x, bore = block + 2 * end, block / 2 + end, bore_of(dn, style)
-    half = 1.35 * radius + 0.006
-    core = along("x", slab(rounded_rectangle(2 * half, 2 * half, 0.08 * half, 2), end, end + block))
-    ends = [along("x", ring(bore, 1.15 * radius, 0.0, end, 16))]
-    ends += [
-        along("x", hexagon(2.5 * radius, 0.5 * end, end, bore, 16), 0.0),
-        moved(ends[0], at(length - end)),
-        along("x", hexagon(2.5 * radius, 0.0, 0.5 * end, bore, 16), length - end),
-    ]
-    holes = along(
-        "y",
-        merge([moved(ring(0.004, 0.007, -half - 0.001, half + 0.001, 10), at(0, 0, 0))]),
-        x - 0.3 * block,
-        0,
-        -0.7 * half,
-    )
-    parts = [metal(merge([core, *ends, holes])), trim(hexagon(1.0 * half, half - 0.001, half + 0.006), "gland", x)]
-    stop = cylinder(0.004, half, half + 0.012, 8)
-    rest = [
-        shaft(half - 0.01, half + 0.02, 0.3 * half, style),
-        hand_lever(0.09 + 2.4 * radius, half + 0.007, style, rng, ("bar", "sheet", "tee", "sheet")),
-        metal(moved(stop, at(0.7 * half, 0.5 * half))),
-    ]
-    return Model(
-        [*parts, *placed(rest, at(x)), *ball_inside(dn, x, style, rng)], round(length, 6), "welded", "ball valve"
-    )
+
+    lever: Handlever = nested(levers("bar", "sheet", "tee", "sheet"), "lever")
+    ball: BallInside = nested(BallInside, "ball and seats", when=lambda p: p.hollow)
+
+    def build(self, t: Table) -> Model:
+        r, block, end = t.pipe.radius, 2.4 * t.pipe.radius + 0.02, 1.1 * t.pipe.radius + 0.012
+        length, bore, half, flats = block + 2 * end, bore_of(t.dn, t.style), 1.35 * r + 0.006, 2.5 * r
+        up, stub = t.at(length / 2), along("x", ring(bore, 1.15 * r, 0.0, end, 16))
+        solids = [along("x", slab(rounded_rectangle(2 * half, 2 * half, 0.08 * half, 2), end, end + block)), stub]
+        solids.append(along("x", hexagon(flats, 0.5 * end, end, bore, 16)))
+        solids.append(moved(stub, at(length - end)))
+        solids.append(along("x", hexagon(flats, 0.0, 0.5 * end, bore, 16), length - end))
+        hole = ring(0.004, 0.007, -half - 0.001, half + 0.001, 10)
+        t.add("valve body", *solids, along("y", hole, length / 2 - 0.3 * block, 0, -0.7 * half))
+        up.add("gland", hexagon(1.0 * half, half - 0.001, half + 0.006))
+        put_stem(up, half - 0.01, half + 0.02, 0.3 * half)
+        self.lever.build(up, 0.09 + 2.4 * r, half + 0.007)
+        up.add("valve body", moved(cylinder(0.004, half, half + 0.012, 8), at(0.7 * half, 0.5 * half)))
+        if self.ball:
+            self.ball.build(up, t.dn)
+        return self.done(t, length)
 
 
-_SMALL = tuple(dn for dn in SIZES if dn <= 50)
-_MID = tuple(dn for dn in SIZES if dn <= 150)
-
-
-UNIONS: tuple[Family, ...] = (
-    valve_family("ball valve/sanitary clamp", _sanitary, tuple(dn for dn in SIZES if dn <= 100)),
-    valve_family("ball valve/true union", _true_union, tuple(dn for dn in SIZES if dn <= 100)),
-    valve_family("ball valve/multi-port", _multi_port, _SMALL),
-    valve_family("ball valve/cut open", _cut_open, _MID),
-    valve_family("ball valve/block", _blocked, _SMALL),
-)
+UNIONS = families_of(Sanitary, TrueUnion, MultiPort, CutOpen, Block)

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any, ClassVar
 
 import numpy as np
 
-from cadplants.families.valves.drive import BODY, diaphragm_head, drive, stem, wheel
-from cadplants.family import Build, Family, Model, Part
+from cadplants.builder.device import Device, families_of
+from cadplants.builder.params import among, between, chance, nested
+from cadplants.builder.table import Table, outline
+from cadplants.families.valves.drive import BODY, DiaphragmHead, Wheel, drive_of, put_spindle
+from cadplants.family import Build, Family, Model
 from cadplants.flange import face_shell, nut_room, plate_thickness
 from cadplants.mesh_ops import Solid, about_x, extrude, merge, moved, revolve, weld
 from cadplants.modeling_style import ModelingStyle
@@ -17,9 +21,12 @@ from cadplants.standards import FACE_TO_FACE, FLANGES, PIPES, SIZES
 from cadplants.transforms import at, spun
 from cadplants.valve_body import bore_of, flipped
 
-__all__ = ["VALVE_FAMILIES", "bolt_circle", "disc_flange", "flanged_body", "valve_family"]
+__all__ = ["VALVE_FAMILIES", "Valve", "bolt_circle", "disc_flange", "flanged_body", "valve_family"]
 
 Middle = Sequence[tuple[float, float]]
+
+BIG = tuple(dn for dn in SIZES if dn >= 40)
+MID = tuple(dn for dn in SIZES if dn <= 200)
 
 
 def flanged_body(dn: int, style: ModelingStyle, length: float, middle: Middle, throat: Middle = ()) -> Solid:
@@ -54,587 +61,463 @@ def disc_flange(dn: int, style: ModelingStyle, reach: float, bore: float = 0.0) 
 def bolt_circle(count: int, radius: float, thread: float, low: float, high: float) -> Solid:
     """Hexagon bolts about z through what lies between two heights, as one mesh [m]."""
     head = 0.65 * thread
-    one = merge(
-        [
-            cylinder(thread / 2, low, high, 8),
-            hexagon(1.6 * thread, high, high + head),
-            hexagon(1.6 * thread, low - head, low),
-        ]
-    )
+    heads = [hexagon(1.6 * thread, *ends) for ends in ((high, high + head), (low - head, low))]
+    one = merge([cylinder(thread / 2, low, high, 8), *heads])
     return around(one, count, radius, np.pi / count)
 
 
-def _swelling(dn: int, length: float, bulge: float, kind: int) -> Middle:
-    """A body between its flanges: round, barrel, tapered or with sharp shoulders."""
-    low = plate_thickness(dn) + min(0.7 * nut_room(dn), 0.12 * length)
-    reach, neck = length / 2 - low, 0.485 * FLANGES[dn].hub
-    if kind == 0:
-        shares = np.linspace(-1, 1, 11)
-        return [(neck + (bulge - neck) * float(np.sqrt(max(0.0, 1 - s * s))), length / 2 + s * reach) for s in shares]
-    if kind == 1:
-        return [(neck, low), (bulge, low + 0.3 * reach), (bulge, length - low - 0.3 * reach), (neck, length - low)]
-    if kind == 2:
-        return [(neck, low), (bulge, length / 2 - 0.1 * reach), (bulge, length / 2 + 0.1 * reach), (neck, length - low)]
-    return [(neck, low), (bulge, low), (bulge, length - low), (neck, length - low)]
+class Valve(Device, place="inline", group="Valve assembly", label="valve", bundle=BODY):
+    """A valve along x from 0, its stem towards +z."""
+
+    @property
+    def radius(self) -> float:
+        """Of its pipe [m]."""
+        return PIPES[self.dn].radius
 
 
-def _body(
-    dn: int, style: ModelingStyle, rng: np.random.Generator, length: float, swell: float = 1.4
-) -> tuple[Part, float]:
-    """A swollen flanged body and the radius of its swelling [m]."""
-    bulge = float(rng.uniform(0.92, 1.1)) * (swell * PIPES[dn].radius + 0.007)
-    bulge = max(bulge, 0.5 * FLANGES[dn].hub)
-    middle = _swelling(dn, length, bulge, int(rng.integers(4)))
-    return Part(flanged_body(dn, style, length, middle), BODY, "valve", BODY), bulge
+class _Swollen(Valve):
+    """A valve with a flanged body that swells between its flanges: round, barrel, tapered or with sharp shoulders."""
+
+    swell: ClassVar[float] = 1.5
+
+    bulge: float = between(0.92, 1.1, "radius of its swelling / what the pipe asks for")
+    form: str = among(("round", "barrel", "tapered", "shouldered"), "form of its body")
+
+    def put_body(self, t: Table, length: float) -> float:
+        """Puts its body down, of a length, and tells the radius of its swelling [m]."""
+        neck, size = 0.485 * t.flange.hub, self.bulge * (self.swell * self.radius + 0.007)
+        bulge, low = max(size, 0.5 * t.flange.hub), plate_thickness(self.dn)
+        low += min(0.7 * nut_room(self.dn), 0.12 * length)
+        x, reach, end = length / 2, length / 2 - low, length - low
+        if self.form == "round":
+            shares = np.linspace(-1, 1, 11)
+            middle = [(neck + (bulge - neck) * float(np.sqrt(max(0.0, 1 - s * s))), x + s * reach) for s in shares]
+        elif self.form == "barrel":
+            middle = outline(neck, low, bulge, low + 0.3 * reach, bulge, end - 0.3 * reach, neck, end)
+        elif self.form == "tapered":
+            middle = outline(neck, low, bulge, x - 0.1 * reach, bulge, x + 0.1 * reach, neck, end)
+        else:
+            middle = outline(neck, low, bulge, low, bulge, end, neck, end)
+        t.add("valve body", flanged_body(self.dn, t.style, length, middle))
+        return bulge
 
 
-def _bonnet(
-    x: float, low: float, seat: float, throat: float, collar: float, plate: float, style: ModelingStyle
-) -> list[Part]:
-    """A neck out of the body with a flange, the bonnet's flange on it, and its bolts."""
-    n = style.round(collar)
-    neck = turned([(throat, low), (throat, seat - plate), (collar, seat - plate), (collar, seat)], n)
-    lid = cylinder(collar, seat, seat + plate, n)
-    bolts = bolt_circle(
-        max(4, 2 * int(collar / 0.03)), 0.86 * collar, max(0.006, 0.12 * collar), seat - plate, seat + plate
-    )
-    pose = at(x)
-    return [
-        Part(moved(neck, pose), BODY, "valve", BODY),
-        Part(moved(lid, pose), "valve bonnet", "valve", BODY),
-        Part(moved(bolts, pose), "bolt", "fastener", BODY, "Connection assembly", True),
-    ]
+class _Control(_Swollen):
+    """A control valve: a globe body, a bolted bonnet, an actuator."""
+
+    def put_bonnet(self, t: Table, length: float) -> Table:
+        """Puts down its body and bonnet: a neck with a flange, the bonnet's on it, its bolts; and tells its top."""
+        bulge, radius = self.put_body(t, length), self.radius
+        collar, plate, t = 0.9 * bulge + 0.01, 0.010 + 0.08 * radius, t.at(length / 2)
+        seat, throat, n = max(bulge + 0.6 * radius, 0.5 * t.flange.outer + plate), 0.7 * bulge, t.style.round(collar)
+        side = outline(throat, 0.75 * bulge, throat, seat - plate, collar, seat - plate, collar, seat)
+        t.add("valve body", turned(side, n))
+        t.add("valve bonnet", cylinder(collar, seat, seat + plate, n))
+        count, thread = max(4, 2 * int(collar / 0.03)), max(0.006, 0.12 * collar)
+        t.add("bolt", bolt_circle(count, 0.86 * collar, thread, seat - plate, seat + plate))
+        top = seat + plate
+        z = top + 0.5 * radius + 0.01
+        t.add("valve bonnet", turned(outline(0.45 * bulge, top, 0.35 * bulge, z), t.style.round(bulge)))
+        return t.at(0, 0, z)
 
 
-def _length(dn: int, kind: str) -> float:
-    return FACE_TO_FACE[kind][dn]
+class ControlDiaphragm(_Control, name="control valve/diaphragm", weight=1.5):
+    """A control valve with a diaphragm actuator."""
+
+    head: DiaphragmHead = nested(DiaphragmHead, "actuator")
+
+    def build(self, t: Table) -> Model:
+        length = FACE_TO_FACE["globe"][self.dn]
+        self.head.build(self.put_bonnet(t, length), self.radius)
+        return t.model(length, kind="control valve")
 
 
-def _control(dn: int, style: ModelingStyle, rng: np.random.Generator, head: str) -> Model:
-    length, radius = _length(dn, "globe"), PIPES[dn].radius
-    body, bulge = _body(dn, style, rng, length, 1.5)
-    collar, plate = 0.9 * bulge + 0.01, 0.010 + 0.08 * radius
-    seat = max(bulge + 0.6 * radius, 0.5 * FLANGES[dn].outer + plate)
-    parts = [body, *_bonnet(length / 2, 0.75 * bulge, seat, 0.7 * bulge, collar, plate, style)]
-    top = seat + plate
-    packing = turned([(0.45 * bulge, top), (0.35 * bulge, top + 0.5 * radius + 0.01)], style.round(bulge))
-    parts.append(Part(moved(packing, at(length / 2)), "valve bonnet", "valve", BODY))
-    z = top + 0.5 * radius + 0.01
-    if head == "diaphragm":
-        parts += diaphragm_head(length / 2, z, radius, style, rng)
-    else:
-        parts += [stem(z, z + 0.02, 0.005 + 0.1 * radius, style, length / 2)]
-        parts += drive(length / 2, z + 0.02, radius, style, rng, (head,))
-    return Model(parts, length, kind="control valve")
+class ControlElectric(_Control, name="control valve/electric"):
+    """A control valve with an electric actuator."""
+
+    drive: Any = drive_of("electric")
+
+    def build(self, t: Table) -> Model:
+        length = FACE_TO_FACE["globe"][self.dn]
+        top = self.put_bonnet(t, length)
+        put_spindle(top, 0.0, 0.02, 0.005 + 0.1 * self.radius)
+        self.drive.build(top.at(0, 0, 0.02))
+        return t.model(length, kind="control valve")
 
 
-def _control_diaphragm(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
-    return _control(dn, style, rng, "diaphragm")
-
-
-def _control_electric(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
-    return _control(dn, style, rng, "electric")
-
-
-def _ball_driven(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class BallDriven(_Swollen, name="ball valve/driven", weight=2):
     """A flanged ball valve of any body with any drive."""
-    length, radius = _length(dn, "ball"), PIPES[dn].radius
-    body, bulge = _body(dn, style, rng, length, 1.5)
-    x = length * float(rng.choice([0.5, 0.5, 0.42]))
-    boss, top = 0.45 * radius + 0.008, bulge + 0.2 * radius + 0.008
-    neck = cylinder(boss, 0.7 * bulge, top, style.round(boss))
-    pad = box((2.2 * boss, 2.2 * boss, 0.006), (0, 0, top))
-    parts = [body, Part(moved(merge([neck, pad]), at(x)), BODY, "valve", BODY)]
-    if rng.random() < 0.5:
-        split = along(
-            "x", cylinder(bulge * 1.12, 0.60 * length, 0.60 * length + 0.02 + 0.1 * radius, style.round(bulge))
-        )
-        parts.append(Part(split, BODY, "valve", BODY))
-    if style.hollow:
-        parts.append(_valve_ball(dn, x, style))
-    parts.append(stem(top, top + 0.012 + 0.2 * radius, 0.004 + 0.14 * radius, style, x))
-    parts += drive(x, top + 0.012 + 0.2 * radius, radius, style, rng)
-    return Model(parts, length, kind="ball valve")
+
+    middle: float = among((0.5, 0.5, 0.42), "where its stem is / length")
+    split: bool = chance(0.5, "its body is of two pieces")
+    drive: Any = drive_of()
+
+    def build(self, t: Table) -> Model:
+        length, radius = FACE_TO_FACE["ball"][self.dn], self.radius
+        bulge, x = self.put_body(t, length), length * self.middle
+        boss, top = 0.45 * radius + 0.008, bulge + 0.2 * radius + 0.008
+        neck = cylinder(boss, 0.7 * bulge, top, t.style.round(boss))
+        t.at(x).add("valve body", neck, box((2.2 * boss, 2.2 * boss, 0.006), (0, 0, top)))
+        if self.split:
+            joint = cylinder(bulge * 1.12, 0.60 * length, 0.60 * length + 0.02 + 0.1 * radius, t.style.round(bulge))
+            t.add("valve body", along("x", joint))
+        t = t.at(x)
+        if t.style.hollow:  # the bored ball, open: a belt of a sphere along the run
+            bore, angles = 0.85 * t.pipe.bore, np.linspace(-0.9, 0.9, 9)
+            reach = bore / np.cos(0.9) * 0.97
+            belt = [(max(reach * float(np.cos(a)), bore * 1.01), reach * float(np.sin(a))) for a in angles]
+            belt += [(bore, belt[-1][1]), (bore, belt[0][1])]
+            t.add("valve ball", about_x(weld([revolve(belt, t.style.round(reach), closed=True)])))
+        high = top + 0.012 + 0.2 * radius
+        put_spindle(t, top, high, 0.004 + 0.14 * radius)
+        self.drive.build(t.at(0, 0, high))
+        return t.model(length, kind="ball valve")
 
 
-def _valve_ball(dn: int, x: float, style: ModelingStyle) -> Part:
-    """The bored ball of a ball valve, open: a belt of a sphere along the run."""
-    bore = 0.85 * PIPES[dn].bore
-    angles = np.linspace(-0.9, 0.9, 9)
-    reach = bore / np.cos(0.9) * 0.97
-    belt = [(max(reach * float(np.cos(a)), bore * 1.01), reach * float(np.sin(a))) for a in angles]
-    low, high = belt[0][1], belt[-1][1]
-    solid = weld([revolve([*belt, (bore, high), (bore, low)], style.round(reach), closed=True)])
-    return Part(moved(about_x(solid), at(x)), "valve ball", "trim", BODY)
-
-
-def _ball_compact(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class BallCompact(Valve, name="ball valve/compact", sizes=tuple(dn for dn in SIZES if FLANGES[dn].n_bolts == 4)):
     """A compact flanged ball valve: a square block with four lobes for its bolts, its lever up one side."""
-    size, radius = FLANGES[dn], PIPES[dn].radius
-    length = max(0.055, 1.9 * radius)
-    half = 0.36 * size.circle
-    lobe = along("x", around(ring(0.5 * size.bolt, 0.95 * size.bolt, 0.0, length, 12), 4, size.circle / 2, np.pi / 4))
-    block = extrude(
-        rounded_rectangle(2 * half, 2 * half, 0.35 * half, 4), 0.0, length, (circle(radius * 0.9, style.round(radius)),)
-    )
-    boss = along("z", cylinder(0.4 * radius + 0.006, 0.9 * half, half + 0.01, 12), length / 2)
-    parts = [
-        Part(merge([along("x", block), lobe, boss]), BODY, "valve", BODY),
-        stem(half + 0.01, half + 0.022, 0.006 + 0.1 * radius, style, length / 2),
-        *drive(length / 2, half + 0.022, radius, style, rng, ("lever", "lever", "pneumatic", "electric")),
-    ]
-    return Model(parts, length, "wafer", "ball valve")
+
+    drive: Any = drive_of("lever", "lever", "pneumatic", "electric")
+
+    def build(self, t: Table) -> Model:
+        size, radius = t.flange, self.radius
+        length, half = max(0.055, 1.9 * radius), 0.36 * size.circle
+        lobe = around(ring(0.5 * size.bolt, 0.95 * size.bolt, 0.0, length, 12), 4, size.circle / 2, np.pi / 4)
+        hole = circle(radius * 0.9, t.style.round(radius))
+        block = extrude(rounded_rectangle(2 * half, 2 * half, 0.35 * half, 4), 0.0, length, (hole,))
+        boss = along("z", cylinder(0.4 * radius + 0.006, 0.9 * half, half + 0.01, 12), length / 2)
+        t.add("valve body", along("x", block), along("x", lobe), boss)
+        put_spindle(t.at(length / 2), half + 0.01, half + 0.022, 0.006 + 0.1 * radius)
+        self.drive.build(t.at(length / 2, 0, half + 0.022))
+        return t.model(length, "wafer", "ball valve")
 
 
-def _plug(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class PlugTapered(_Swollen, name="plug valve/tapered", sizes=MID):
     """A lubricated or lined plug valve: a tapered chest through the body, a wrench square on top."""
-    length, radius = _length(dn, "gate"), PIPES[dn].radius
-    body, bulge = _body(dn, style, rng, length, 1.2)
-    n, x = style.round(bulge), length / 2
-    chest = turned(
-        [
-            (0.8 * bulge, -1.25 * bulge),
-            (1.0 * bulge, -1.2 * bulge),
-            (1.12 * bulge, 1.2 * bulge),
-            (1.12 * bulge, 1.3 * bulge),
-        ],
-        n,
-    )
-    cover = turned([(1.15 * bulge, 1.3 * bulge), (1.15 * bulge, 1.45 * bulge), (0.5 * bulge, 1.6 * bulge)], n)
-    square = box((0.5 * bulge, 0.5 * bulge, 0.4 * bulge), (0, 0, 1.75 * bulge))
-    bolts = bolt_circle(6, 1.0 * bulge, 0.1 * bulge + 0.004, 1.2 * bulge, 1.45 * bulge)
-    parts = [
-        body,
-        Part(moved(chest, at(x)), BODY, "valve", BODY),
-        Part(moved(cover, at(x)), "valve bonnet", "valve", BODY),
-        Part(moved(square, at(x)), "valve stem", "trim", BODY),
-        Part(moved(bolts, at(x)), "bolt", "fastener", BODY, "Connection assembly", True),
-    ]
-    if rng.random() < 0.8:
-        parts += drive(x, 1.95 * bulge, radius, style, rng, ("lever", "gear", "pneumatic", "bar"))
-    return Model(parts, length, kind="plug valve")
 
+    swell = 1.2
 
-def _weir(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
-    """A weir diaphragm valve: a waisted body with a wide square or round collar, a domed bonnet, a wheel (EN 13397)."""
-    length, radius = _length(dn, "gate") * 1.1, PIPES[dn].radius
-    neck = 0.485 * FLANGES[dn].hub
-    low = plate_thickness(dn) + 0.1 * length
-    middle: Middle = [
-        (0.95 * neck, low),
-        (1.05 * neck, length / 2 - 0.15 * length),
-        (1.05 * neck, length / 2 + 0.15 * length),
-        (0.95 * neck, length - low),
-    ]
-    x, z = length / 2, max(1.0 * neck, 0.42 * FLANGES[dn].outer)
-    half = min(0.42 * (length - 2 * low) + 0.01, 2.2 * radius + 0.01)
-    if rng.random() < 0.5:
-        collar = extrude(rounded_rectangle(2 * half, 2.2 * half, 0.3 * half, 4), 0.55 * neck, z)
-        lid = extrude(rounded_rectangle(2 * half, 2.2 * half, 0.3 * half, 4), z + 0.003, z + 0.014)
-    else:
-        collar = turned([(0.6 * half, 0.55 * neck), (half, 0.8 * z), (half, z)], style.round(half))
-        lid = cylinder(half, z + 0.003, z + 0.014, style.round(half))
-    hood = dome(0.85 * half, 0.8 * half, z + 0.014, style.round(half))
-    seal = cylinder(0.95 * half, z, z + 0.003, style.round(half))
-    top = z + 0.014 + 0.75 * half
-    bolts = bolt_circle(4, 1.15 * half if half else 0.02, 0.008 + 0.06 * radius, z - 0.01, z + 0.014)
-    parts = [
-        Part(flanged_body(dn, style, length, middle), BODY, "valve", BODY),
-        Part(moved(collar, at(x)), BODY, "valve", BODY),
-        Part(moved(seal, at(x)), "gasket", "rubber", BODY, "Pipe assembly"),
-        Part(moved(merge([lid, hood]), at(x)), "valve bonnet", "valve", BODY),
-        Part(moved(bolts, at(x)), "bolt", "fastener", BODY, "Connection assembly", True),
-        stem(top, top + 0.03 + 0.5 * radius, 0.004 + 0.1 * radius, style, x),
-        wheel(0.03 + 1.2 * radius, x, top + 0.015 + 0.3 * radius, style, rng),
-    ]
-    return Model(parts, length, kind="diaphragm valve")
+    driven: bool = chance(0.8, "something turns it")
+    drive: Any = drive_of("lever", "gear", "pneumatic", "bar", when=lambda p: p.driven)
 
-
-def _butterfly(dn: int, style: ModelingStyle, rng: np.random.Generator, lugs: str) -> Model:
-    """A butterfly valve body: wafer ring, ring with lugs, or double flanged; disc; long neck with a mounting pad."""
-    size, pipe = FLANGES[dn], PIPES[dn]
-    length = FACE_TO_FACE["butterfly"][dn] * (2.2 if lugs == "flanged" else 1.0)
-    outer = 0.49 * (size.circle - size.bolt)
-    n = style.round(outer)
-    bore = pipe.bore
-    shell = ring(bore, outer, 0.0, length, n)
-    if lugs == "lug":
-        shell = merge(
-            [
-                shell,
-                around(
-                    ring(0.5 * size.bolt, size.bolt, 0.0, length, 10),
-                    size.n_bolts,
-                    size.circle / 2,
-                    np.pi / size.n_bolts,
-                ),
-            ]
-        )
-    elif lugs == "flanged":
-        thick = plate_thickness(dn)
-        shell = merge(
-            [
-                ring(bore, 0.55 * (size.hub), 0.0, length, n),
-                *(ring(bore, size.outer / 2, z, z + thick, n) for z in (0.0, length - thick)),
-            ]
-        )
-    body = about_x(shell)
-    neck, top = min(0.38 * length, 0.3 * outer) + 0.004, 0.5 * size.outer + 0.02 + 0.3 * pipe.radius
-    post = cylinder(neck, 0.95 * bore + 0.03 * outer, top - 0.008, max(8, style.round(neck)))
-    pad = extrude(rounded_rectangle(3.2 * neck, 3.2 * neck, 0.4 * neck, 3), top - 0.01, top)
-    boss = along("-z", cylinder(0.8 * neck, 0.99 * bore, outer + 0.3 * neck, max(8, style.round(neck))))
-    x = length / 2
-    blade = turned(
-        [(0.3 * bore, -0.1 * bore), (0.985 * bore, -0.004), (0.985 * bore, 0.004), (0.3 * bore, 0.1 * bore)], n
-    )
-    angle = float(rng.choice([0.0, 0.5, 0.25])) * np.pi
-    blade = moved(blade, at(x) @ spun("z", angle) @ spun("y", np.pi / 2))
-    parts = [
-        Part(merge([body, moved(merge([post, pad, boss]), at(x))]), BODY, "valve", BODY),
-        Part(blade, "valve disc", "trim", BODY),
-        stem(top, top + 0.02, 0.35 * neck + 0.003, style, x),
-        *drive(x, top + 0.02, pipe.radius, style, rng, ("lever", "lever", "gear", "pneumatic", "electric", "chain")),
-    ]
-    joint = "flanged" if lugs == "flanged" else "wafer"
-    return Model(parts, length, joint, "butterfly valve")
-
-
-def _butterfly_wafer(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
-    return _butterfly(dn, style, rng, "wafer")
-
-
-def _butterfly_lug(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
-    return _butterfly(dn, style, rng, "lug")
-
-
-def _butterfly_flanged(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
-    return _butterfly(dn, style, rng, "flanged")
-
-
-def _knife(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
-    """A knife gate valve: a thin body with lugs, a flat chest, a blade, a tall frame (MSS SP-81)."""
-    size, radius = FLANGES[dn], PIPES[dn].radius
-    length = FACE_TO_FACE["butterfly"][dn] * 1.05
-    n, bore, outer = style.round(size.outer / 2), PIPES[dn].bore, 0.49 * size.outer
-    shell = about_x(ring(bore, outer, 0.0, length, n))
-    x, chest = length / 2, 1.25 * radius + 0.01
-    rise = outer + 1.6 * radius + 0.03
-    box_ = box((0.8 * length, 2 * chest, rise - 0.9 * bore), (x, 0, (rise + 0.9 * bore) / 2))
-    collar = box((1.3 * length, 2.3 * chest, 0.02), (x, 0, rise - 0.01))
-    tall = rise + 2.3 * radius + 0.06
-    frame = [box((0.5 * length, 0.012, tall - rise), (x, s * 1.05 * chest, (tall + rise) / 2)) for s in (-1, 1)]
-    cross = box((0.7 * length, 2.2 * chest, 0.014), (x, 0, tall))
-    blade = box((0.006, 1.8 * chest, 1.5 * radius + 0.05), (x, 0, rise + 0.7 * radius))
-    parts = [
-        Part(merge([shell, box_]), BODY, "valve", BODY),
-        Part(collar, "gland", "trim", BODY),
-        Part(blade, "valve disc", "trim", BODY),
-        Part(merge([*frame, cross]), "yoke", "steel", BODY),
-        stem(rise + 1.4 * radius, tall + 0.05, 0.008 + 0.06 * radius, style, x),
-    ]
-    if rng.random() < 0.75:
-        parts.append(wheel(0.05 + 1.1 * radius, x, tall + 0.015, style, rng))
-    else:
-        tank_ = turned(
-            [
-                (0.9 * radius, tall),
-                (0.9 * radius, tall + 0.02),
-                (0.75 * radius, tall + 0.02),
-                (0.75 * radius, tall + 3 * radius),
-                (0.9 * radius, tall + 3 * radius),
-                (0.9 * radius, tall + 3 * radius + 0.02),
-            ],
-            n,
-        )
-        parts.append(Part(moved(tank_, at(x)), "actuator", "trim"))
-    return Model(parts, length, "wafer", "knife gate valve")
-
-
-def _wafer_check(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
-    """A wafer check valve: a short ring with a shoulder, a disc or two plates inside (API 594)."""
-    size, bore = FLANGES[dn], PIPES[dn].bore
-    outer = 0.49 * (size.circle - size.bolt)
-    n, length = style.round(outer), max(0.02, float(rng.choice([0.25, 0.4, 0.8])) * PIPES[dn].outer)
-    if rng.random() < 0.5:
-        inner, waist = 1.02 * bore, float(rng.uniform(0.75, 0.98)) * outer
-        lip = 0.18 * length
-        profile = [
-            (inner * 0.8, 0.0),
-            (outer, 0.0),
-            (outer, lip),
-            (max(waist, 1.08 * inner), 1.2 * lip),
-            (max(waist, 1.08 * inner), length),
-            (inner, length),
-        ]
-        shell = about_x(weld([revolve(profile, n, closed=True)]))
-        lid = about_x(
-            turned(
-                [
-                    (0.78 * bore, 0.3 * length),
-                    (0.95 * bore, 0.35 * length),
-                    (0.95 * bore, 0.5 * length),
-                    (0.3 * bore, 0.7 * length),
-                ],
-                n,
+    def build(self, t: Table) -> Model:
+        length = FACE_TO_FACE["gate"][self.dn]
+        bulge, t = self.put_body(t, length), t.at(length / 2)
+        n = t.style.round(bulge)
+        chest, cover = (
+            turned([(r * bulge, z * bulge) for r, z in side], n)
+            for side in (
+                outline(0.8, -1.25, 1, -1.2, 1.12, 1.2, 1.12, 1.3),
+                outline(1.15, 1.3, 1.15, 1.45, 0.5, 1.6),
             )
         )
-        inside = [Part(lid, "valve disc", "trim", BODY)]
-    else:
-        shell = about_x(ring(bore, outer, 0.0, length, n))
-        half = np.vstack([0.97 * bore * np.column_stack([np.cos(t := np.linspace(0.05, np.pi - 0.05, 12)), np.sin(t)])])
-        plates = [
-            along("x", moved(extrude(half, 0.35 * length, 0.35 * length + 0.006), spun("z", a))) for a in (0.0, np.pi)
-        ]
-        pin = along("y", cylinder(0.05 * bore + 0.002, -bore, bore, 8), 0.45 * length)
-        inside = [Part(solid, "valve disc", "trim", BODY) for solid in plates] + [Part(pin, "valve stem", "trim", BODY)]
-    return Model([Part(shell, BODY, "valve", BODY), *inside], round(length, 6), "wafer", "check valve")
+        t.add("valve body", chest)
+        t.add("valve bonnet", cover)
+        t.add("valve stem", box((0.5 * bulge, 0.5 * bulge, 0.4 * bulge), (0, 0, 1.75 * bulge)))
+        t.add("bolt", bolt_circle(6, 1.0 * bulge, 0.1 * bulge + 0.004, 1.2 * bulge, 1.45 * bulge))
+        if self.driven:
+            self.drive.build(t.at(0, 0, 1.95 * bulge))
+        return t.model(length, kind="plug valve")
 
 
-def _ball_check(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class Weir(Valve, name="diaphragm valve/weir", sizes=MID):
+    """A weir diaphragm valve: a waisted body with a wide square or round collar, a domed bonnet, a wheel (EN 13397)."""
+
+    square: bool = chance(0.5, "its collar is square, not round")
+    wheel: Wheel = nested(Wheel, "handwheel")
+
+    def build(self, t: Table) -> Model:
+        length, radius, neck = FACE_TO_FACE["gate"][self.dn] * 1.1, self.radius, 0.485 * t.flange.hub
+        low, x, z = plate_thickness(self.dn) + 0.1 * length, length / 2, max(1.0 * neck, 0.42 * t.flange.outer)
+        waist, end, reach = 1.05 * neck, 0.95 * neck, 0.15 * length
+        middle = outline(end, low, waist, x - reach, waist, x + reach, end, length - low)
+        half = min(0.42 * (length - 2 * low) + 0.01, 2.2 * radius + 0.01)
+        n = t.style.round(half)
+        if self.square:
+            edge = rounded_rectangle(2 * half, 2.2 * half, 0.3 * half, 4)
+            collar, lid = extrude(edge, 0.55 * neck, z), extrude(edge, z + 0.003, z + 0.014)
+        else:
+            collar = turned(outline(0.6 * half, 0.55 * neck, half, 0.8 * z, half, z), n)
+            lid = cylinder(half, z + 0.003, z + 0.014, n)
+        t.add("valve body", flanged_body(self.dn, t.style, length, middle))
+        t = t.at(x)
+        t.add("valve body", collar)
+        t.add("gasket", cylinder(0.95 * half, z, z + 0.003, n), of="rubber", own=True)
+        t.add("valve bonnet", lid, dome(0.85 * half, 0.8 * half, z + 0.014, n))
+        t.add("bolt", bolt_circle(4, 1.15 * half, 0.008 + 0.06 * radius, z - 0.01, z + 0.014))
+        top = z + 0.014 + 0.75 * half
+        put_spindle(t, top, top + 0.03 + 0.5 * radius, 0.004 + 0.1 * radius)
+        self.wheel.build(t, 0.03 + 1.2 * radius, top + 0.015 + 0.3 * radius)
+        return t.model(length, kind="diaphragm valve")
+
+
+class _Butterfly(Valve, sizes=BIG):
+    """A butterfly valve: a ring, its disc, a long neck with a mounting pad."""
+
+    long: ClassVar[float] = 1.0
+    joint: ClassVar[str] = "wafer"
+
+    turn: float = among((0.0, np.pi / 2, np.pi / 4), "of its disc, from shut", "rad")
+    drive: Any = drive_of("lever", "lever", "gear", "pneumatic", "electric", "chain")
+
+    def shell(self, t: Table, length: float, outer: float) -> list[Solid]:
+        """Its ring about z, of a length and a radius [m]."""
+        return [ring(t.pipe.bore, outer, 0.0, length, t.style.round(outer))]
+
+    def build(self, t: Table) -> Model:
+        size, bore, radius = t.flange, t.pipe.bore, self.radius
+        length = FACE_TO_FACE["butterfly"][self.dn] * self.long
+        outer = 0.49 * (size.circle - size.bolt)
+        neck, top = min(0.38 * length, 0.3 * outer) + 0.004, 0.5 * size.outer + 0.02 + 0.3 * radius
+        n, x = max(8, t.style.round(neck)), length / 2
+        post = cylinder(neck, 0.95 * bore + 0.03 * outer, top - 0.008, n)
+        pad = extrude(rounded_rectangle(3.2 * neck, 3.2 * neck, 0.4 * neck, 3), top - 0.01, top)
+        boss = along("-z", cylinder(0.8 * neck, 0.99 * bore, outer + 0.3 * neck, n))
+        tower = moved(merge([post, pad, boss]), at(x))
+        t.add("valve body", *map(about_x, self.shell(t, length, outer)), tower)
+        t, rim = t.at(x), 0.985 * bore
+        blade = turned(
+            outline(0.3 * bore, -0.1 * bore, rim, -0.004, rim, 0.004, 0.3 * bore, 0.1 * bore), t.style.round(outer)
+        )
+        t.spun("z", self.turn).add("valve disc", along("x", blade))
+        put_spindle(t, top, top + 0.02, 0.35 * neck + 0.003)
+        self.drive.build(t.at(0, 0, top + 0.02))
+        return t.model(length, self.joint, "butterfly valve")
+
+
+class ButterflyWafer(_Butterfly, name="butterfly valve/wafer", weight=1.5):
+    """A butterfly valve between flanges: a wafer ring."""
+
+
+class ButterflyLug(_Butterfly, name="butterfly valve/lug"):
+    """A butterfly valve between flanges: a ring with lugs."""
+
+    def shell(self, t: Table, length: float, outer: float) -> list[Solid]:
+        size, lug = t.flange, ring(0.5 * t.flange.bolt, t.flange.bolt, 0.0, length, 10)
+        lugs = around(lug, size.n_bolts, size.circle / 2, np.pi / size.n_bolts)
+        return [*super().shell(t, length, outer), lugs]
+
+
+class ButterflyFlanged(_Butterfly, name="butterfly valve/flanged"):
+    """A butterfly valve with two flanges of its own."""
+
+    long = 2.2
+    joint = "flanged"
+
+    def shell(self, t: Table, length: float, outer: float) -> list[Solid]:
+        size, thick, bore, n = t.flange, plate_thickness(self.dn), t.pipe.bore, t.style.round(outer)
+        plates = [ring(bore, size.outer / 2, z, z + thick, n) for z in (0.0, length - thick)]
+        return [ring(bore, 0.55 * size.hub, 0.0, length, n), *plates]
+
+
+class Knife(Valve, name="knife gate valve/wafer", sizes=BIG):
+    """A knife gate valve: a thin body with lugs, a flat chest, a blade, a tall frame (MSS SP-81)."""
+
+    wheeled: bool = chance(0.75, "a handwheel, not a cylinder")
+    wheel: Wheel = nested(Wheel, "handwheel", when=lambda p: p.wheeled)
+
+    def build(self, t: Table) -> Model:
+        radius, bore, outer = self.radius, t.pipe.bore, 0.49 * t.flange.outer
+        length, n = FACE_TO_FACE["butterfly"][self.dn] * 1.05, t.style.round(t.flange.outer / 2)
+        x, chest, rise = length / 2, 1.25 * radius + 0.01, outer + 1.6 * radius + 0.03
+        tall = rise + 2.3 * radius + 0.06
+        t.add(
+            "valve body", about_x(ring(bore, outer, 0.0, length, n)),
+            box((0.8 * length, 2 * chest, rise - 0.9 * bore), (x, 0, (rise + 0.9 * bore) / 2)),
+        )  # fmt: skip
+        t = t.at(x)
+        t.add("gland", box((1.3 * length, 2.3 * chest, 0.02), (0, 0, rise - 0.01)))
+        t.add("valve disc", box((0.006, 1.8 * chest, 1.5 * radius + 0.05), (0, 0, rise + 0.7 * radius)))
+        bar = (0.5 * length, 0.012, tall - rise)
+        frame = [box(bar, (0, s * 1.05 * chest, (tall + rise) / 2)) for s in (-1, 1)]
+        t.add("yoke", *frame, box((0.7 * length, 2.2 * chest, 0.014), (0, 0, tall)), of="steel")
+        put_spindle(t, rise + 1.4 * radius, tall + 0.05, 0.008 + 0.06 * radius)
+        if self.wheeled:
+            self.wheel.build(t, 0.05 + 1.1 * radius, tall + 0.015)
+        else:
+            rim, can, end = 0.9 * radius, 0.75 * radius, tall + 3 * radius
+            side = outline(rim, tall, rim, tall + 0.02, can, tall + 0.02, can, end, rim, end, rim, end + 0.02)
+            t.add("actuator", turned(side, n), of="trim", own=False)
+        return t.model(length, "wafer", "knife gate valve")
+
+
+class WaferCheck(Valve, name="check valve/wafer", sizes=BIG, weight=1.5):
+    """A wafer check valve: a short ring with a shoulder, a disc or two plates inside (API 594)."""
+
+    long: float = among((0.25, 0.4, 0.8), "length / the pipe's diameter")
+    shouldered: bool = chance(0.5, "a ring with a shoulder and a disc, not two plates")
+    waist: float = between(0.75, 0.98, "radius behind the shoulder / of it", when=lambda p: p.shouldered)
+
+    def build(self, t: Table) -> Model:
+        size, bore = t.flange, t.pipe.bore
+        outer = 0.49 * (size.circle - size.bolt)
+        n, length = t.style.round(outer), max(0.02, self.long * t.pipe.outer)
+        if self.shouldered:
+            inner, lip = 1.02 * bore, 0.18 * length
+            waist = max(self.waist * outer, 1.08 * inner)
+            side = outline(inner * 0.8, 0, outer, 0, outer, lip, waist, 1.2 * lip, waist, length, inner, length)
+            t.add("valve body", about_x(weld([revolve(side, n, closed=True)])))
+            lid = outline(0.78, 0.3, 0.95, 0.35, 0.95, 0.5, 0.3, 0.7)
+            t.add("valve disc", about_x(turned([(r * bore, z * length) for r, z in lid], n)))
+        else:
+            t.add("valve body", about_x(ring(bore, outer, 0.0, length, n)))
+            a = np.linspace(0.05, np.pi - 0.05, 12)
+            plate = extrude(0.97 * bore * np.column_stack([np.cos(a), np.sin(a)]), 0.35 * length, 0.35 * length + 0.006)
+            for turn in (0.0, np.pi):
+                t.add("valve disc", along("x", moved(plate, spun("z", turn))))
+            t.add("valve stem", along("y", cylinder(0.05 * bore + 0.002, -bore, bore, 8), 0.45 * length))
+        return t.model(round(length, 6), "wafer", "check valve")
+
+
+class BallCheck(_Swollen, name="check valve/ball", sizes=MID):
     """A ball check valve: a body with a slanting chamber and a bolted cap."""
-    length = _length(dn, "check")
-    body, bulge = _body(dn, style, rng, length, 1.3)
-    tilt, x = float(rng.uniform(0.5, 0.9)), 0.55 * length
-    n = style.round(bulge)
-    reach = max(2.4 * bulge, 0.6 * FLANGES[dn].outer)
-    way = at(x, 0, 0.2 * bulge) @ spun("y", tilt)
-    arm = turned([(0.95 * bulge, 0.0), (0.95 * bulge, reach), (1.2 * bulge, reach), (1.2 * bulge, reach + 0.012)], n)
-    lid = turned([(1.2 * bulge, reach + 0.012), (1.2 * bulge, reach + 0.026), (0.6 * bulge, reach + 0.036)], n)
-    parts = [
-        body,
-        Part(moved(arm, way), BODY, "valve", BODY),
-        Part(moved(lid, way), "valve bonnet", "valve", BODY),
-        Part(
-            moved(bolt_circle(4, 1.08 * bulge, 0.01, reach, reach + 0.026), way),
-            "bolt",
-            "fastener",
-            BODY,
-            "Connection assembly",
-            True,
-        ),
-    ]
-    return Model(parts, length, kind="check valve")
+
+    swell = 1.3
+
+    tilt: float = between(0.5, 0.9, "of its chamber", "rad")
+
+    def build(self, t: Table) -> Model:
+        length = FACE_TO_FACE["check"][self.dn]
+        bulge, whole_table = self.put_body(t, length), t
+        n, reach = t.style.round(bulge), max(2.4 * bulge, 0.6 * t.flange.outer)
+        arm, rim = 0.95 * bulge, 1.2 * bulge
+        t = t.at(0.55 * length, 0, 0.2 * bulge).spun("y", self.tilt)
+        t.add("valve body", turned(outline(arm, 0, arm, reach, rim, reach, rim, reach + 0.012), n))
+        lid = outline(rim, reach + 0.012, rim, reach + 0.026, 0.6 * bulge, reach + 0.036)
+        t.add("valve bonnet", turned(lid, n))
+        t.add("bolt", bolt_circle(4, 1.08 * bulge, 0.01, reach, reach + 0.026))
+        return whole_table.model(length, kind="check valve")
 
 
-def _nozzle_check(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class NozzleCheck(_Swollen, name="check valve/axial"):
     """An axial check valve: nothing but a swollen body; or a lift check with a screwed cap."""
-    length = _length(dn, "check")
-    body, bulge = _body(dn, style, rng, length, 1.6)
-    parts = [body]
-    if rng.random() < 0.5:
-        cap_ = merge(
-            [
-                cylinder(0.7 * bulge, 0.6 * bulge, 1.35 * bulge, style.round(bulge)),
-                hexagon(0.9 * bulge, 1.35 * bulge, 1.6 * bulge),
-            ]
-        )
-        parts.append(Part(moved(cap_, at(length / 2)), "valve bonnet", "valve", BODY))
-    return Model(parts, length, kind="check valve")
+
+    swell = 1.6
+
+    capped: bool = chance(0.5, "a lift check with a screwed cap")
+
+    def build(self, t: Table) -> Model:
+        length = FACE_TO_FACE["check"][self.dn]
+        bulge = self.put_body(t, length)
+        if self.capped:
+            cap = cylinder(0.7 * bulge, 0.6 * bulge, 1.35 * bulge, t.style.round(bulge))
+            t.at(length / 2).add("valve bonnet", cap, hexagon(0.9 * bulge, 1.35 * bulge, 1.6 * bulge))
+        return t.model(length, kind="check valve")
 
 
-def _three_way(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class ThreeWay(_Swollen, name="three-way valve/flanged", sizes=MID):
     """A three-way valve: a third flange downward or to the side, closed by a blind flange or open."""
-    length, radius = _length(dn, "globe"), PIPES[dn].radius
-    body, bulge = _body(dn, style, rng, length, 1.5)
-    x, reach = length / 2, length / 2
-    side = str(rng.choice(["-z", "y", "-y"]))
-    branch = moved(disc_flange(dn, style, reach - 0.6 * bulge), at(0, 0, -reach))
-    branch = moved(along({"-z": "z", "y": "-y", "-y": "y"}[side], branch), at(x))
-    parts = [body, Part(branch, BODY, "valve", BODY)]
-    top = bulge + 0.3 * radius + 0.01
-    parts.append(
-        Part(
-            moved(turned([(0.6 * bulge, 0.7 * bulge), (0.6 * bulge, top)], style.round(bulge)), at(x)),
-            "valve bonnet",
-            "valve",
-            BODY,
-        )
-    )
-    parts.append(stem(top, top + 0.03, 0.005 + 0.1 * radius, style, x))
-    if rng.random() < 0.35:
-        parts += diaphragm_head(x, top + 0.01, radius, style, rng)
-    else:
-        parts += drive(x, top + 0.03, radius, style, rng, ("lever", "pneumatic", "electric"))
-    return Model(parts, length, kind="three-way valve")
+
+    side: str = among(("-z", "y", "-y"), "where its third flange is")
+    diaphragm: bool = chance(0.35, "a diaphragm actuator")
+    head: DiaphragmHead = nested(DiaphragmHead, "that actuator", when=lambda p: p.diaphragm)
+    drive: Any = drive_of("lever", "pneumatic", "electric", when=lambda p: not p.diaphragm)
+
+    def build(self, t: Table) -> Model:
+        length, radius = FACE_TO_FACE["globe"][self.dn], self.radius
+        bulge, x = self.put_body(t, length), length / 2
+        branch = moved(disc_flange(self.dn, t.style, x - 0.6 * bulge), at(0, 0, -x))
+        t, top = t.at(x), bulge + 0.3 * radius + 0.01
+        t.add("valve body", along({"-z": "z", "y": "-y", "-y": "y"}[self.side], branch))
+        t.add("valve bonnet", turned(outline(0.6 * bulge, 0.7 * bulge, 0.6 * bulge, top), t.style.round(bulge)))
+        put_spindle(t, top, top + 0.03, 0.005 + 0.1 * radius)
+        if self.diaphragm:
+            self.head.build(t.at(0, 0, top + 0.01), radius)
+        else:
+            self.drive.build(t.at(0, 0, top + 0.03))
+        return t.model(length, kind="three-way valve")
 
 
-def _y_globe(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class GlobeY(_Swollen, name="globe valve/Y pattern", sizes=MID):
     """A Y-pattern globe valve, its bonnet slanting; a wheel on its stem."""
-    length, radius = _length(dn, "globe"), PIPES[dn].radius
-    body, bulge = _body(dn, style, rng, length, 1.2)
-    tilt, n = float(rng.uniform(0.6, 0.85)), style.round(bulge)
-    way = at(0.48 * length, 0, 0.1 * bulge) @ spun("y", tilt)
-    reach = max(2.2 * bulge, 0.65 * FLANGES[dn].outer)
-    neck = turned([(0.85 * bulge, 0.0), (0.85 * bulge, reach), (1.15 * bulge, reach), (1.15 * bulge, reach + 0.012)], n)
-    cap_ = turned(
-        [
-            (1.15 * bulge, reach + 0.012),
-            (1.15 * bulge, reach + 0.026),
-            (0.5 * bulge, reach + 0.04),
-            (0.4 * bulge, reach + 0.06 + radius),
-        ],
-        n,
-    )
-    high = reach + 0.06 + radius
-    rest = [
-        stem(high, high + 0.04 + 0.8 * radius, 0.005 + 0.1 * radius, style),
-        wheel(0.04 + 1.3 * radius, 0, high + 0.02 + 0.6 * radius, style, rng),
-    ]
-    parts = [
-        body,
-        Part(moved(neck, way), BODY, "valve", BODY),
-        Part(moved(cap_, way), "valve bonnet", "valve", BODY),
-        *(Part(moved(p.solid, way), p.name, p.color, p.bundle) for p in rest),
-    ]
-    return Model(parts, length, kind="globe valve")
+
+    swell = 1.2
+
+    tilt: float = between(0.6, 0.85, "of its bonnet", "rad")
+    wheel: Wheel = nested(Wheel, "handwheel")
+
+    def build(self, t: Table) -> Model:
+        length, radius = FACE_TO_FACE["globe"][self.dn], self.radius
+        bulge = self.put_body(t, length)
+        n, reach = t.style.round(bulge), max(2.2 * bulge, 0.65 * t.flange.outer)
+        neck, rim, high = 0.85 * bulge, 1.15 * bulge, reach + 0.06 + radius
+        t = t.at(0.48 * length, 0, 0.1 * bulge).spun("y", self.tilt)
+        t.add("valve body", turned(outline(neck, 0, neck, reach, rim, reach, rim, reach + 0.012), n))
+        cap = outline(rim, reach + 0.012, rim, reach + 0.026, 0.5 * bulge, reach + 0.04, 0.4 * bulge, high)
+        t.add("valve bonnet", turned(cap, n))
+        put_spindle(t, high, high + 0.04 + 0.8 * radius, 0.005 + 0.1 * radius)
+        self.wheel.build(t, 0.04 + 1.3 * radius, high + 0.02 + 0.6 * radius, "")
+        return t.model(length, kind="globe valve")
 
 
-def _reducing(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class Reducing(_Swollen, name="pressure reducing valve/spring", sizes=MID):
     """A pressure reducing valve: a globe body with a spring or pilot housing above and maybe a closed can below."""
-    length = _length(dn, "globe")
-    body, bulge = _body(dn, style, rng, length, 1.4)
-    x, n = length / 2, style.round(2 * bulge)
-    z = max(1.2 * bulge, 0.5 * FLANGES[dn].outer)
-    pan = turned(
-        [(0.7 * bulge, 0.6 * bulge), (0.7 * bulge, z), (1.7 * bulge, z + 0.2 * bulge), (1.7 * bulge, z + 0.35 * bulge)],
-        n,
-    )
-    hood = turned(
-        [
-            (1.7 * bulge, z + 0.35 * bulge),
-            (1.7 * bulge, z + 0.5 * bulge),
-            (0.75 * bulge, z + 0.9 * bulge),
-            (0.7 * bulge, z + 2.6 * bulge),
-            (0.4 * bulge, z + 2.8 * bulge),
-        ],
-        n,
-    )
-    screw = merge(
-        [
-            cylinder(0.1 * bulge + 0.003, z + 2.75 * bulge, z + 3.3 * bulge, 8),
-            hexagon(0.4 * bulge, z + 2.8 * bulge, z + 3.0 * bulge),
-        ]
-    )
-    parts = [
-        body,
-        Part(moved(pan, at(x)), BODY, "valve", BODY),
-        Part(moved(hood, at(x)), "valve bonnet", "valve", BODY),
-        Part(moved(screw, at(x)), "valve stem", "trim", BODY),
-    ]
-    parts.append(
-        Part(
-            moved(bolt_circle(8, 1.55 * bulge, 0.01, z + 0.2 * bulge, z + 0.5 * bulge), at(x)),
-            "bolt",
-            "fastener",
-            BODY,
-            "Connection assembly",
-            True,
-        )
-    )
-    if rng.random() < 0.4:
-        can = turned([(0.9 * bulge, 0.0), (0.9 * bulge, 0.5 * bulge)], n)
-        parts.append(Part(moved(can, at(x, 0, -1.35 * bulge)), BODY, "valve", BODY))
-    return Model(parts, length, kind="pressure reducing valve")
+
+    swell = 1.4
+
+    canned: bool = chance(0.4, "a closed can below it")
+
+    def build(self, t: Table) -> Model:
+        length = FACE_TO_FACE["globe"][self.dn]
+        b, t = self.put_body(t, length), t.at(length / 2)
+        n, z = t.style.round(2 * b), max(1.2 * b, 0.5 * t.flange.outer)
+        pan = outline(0.7 * b, 0.6 * b, 0.7 * b, z, 1.7 * b, z + 0.2 * b, 1.7 * b, z + 0.35 * b)
+        hood = outline(1.7, 0.35, 1.7, 0.5, 0.75, 0.9, 0.7, 2.6, 0.4, 2.8)
+        t.add("valve body", turned(pan, n))
+        t.add("valve bonnet", turned([(r * b, z + h * b) for r, h in hood], n))
+        screw = cylinder(0.1 * b + 0.003, z + 2.75 * b, z + 3.3 * b, 8)
+        t.add("valve stem", screw, hexagon(0.4 * b, z + 2.8 * b, z + 3.0 * b))
+        t.add("bolt", bolt_circle(8, 1.55 * b, 0.01, z + 0.2 * b, z + 0.5 * b))
+        if self.canned:
+            t.at(0, 0, -1.35 * b).add("valve body", cylinder(0.9 * b, 0.0, 0.5 * b, n))
+        return t.model(length, kind="pressure reducing valve")
 
 
-def _relief(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class Relief(Valve, name="relief valve/spring", sizes=MID, place="head", weight=2):
     """A spring relief valve: inlet below (x = 0), outlet to the side, a tall bonnet with a cap or a lifting lever."""
-    radius, size = PIPES[dn].radius, FLANGES[dn]
-    out = SIZES[min(SIZES.index(dn) + 1, len(SIZES) - 1)]
-    centre = 0.6 * size.outer + 0.03  # API 526 proportions: centre to inlet face about the flange's radius and more
-    bulge, n = 1.6 * radius + 0.010, style.round(size.outer / 2)
-    inlet = about_x(disc_flange(dn, style, centre))
-    ball_ = about_x(
-        turned(
-            [
-                (0.8 * bulge, centre - bulge),
-                (bulge, centre - 0.5 * bulge),
-                (bulge, centre + 0.7 * bulge),
-                (1.15 * bulge, centre + 0.8 * bulge),
-                (1.15 * bulge, centre + 0.95 * bulge),
-            ],
-            n,
-        )
-    )
-    reach = 0.6 * FLANGES[out].outer + 0.03
-    outlet = moved(along("y", moved(disc_flange(out, style, reach), at(0, 0, -reach))), at(centre))
-    tall = float(rng.uniform(3.5, 5.0)) * bulge
-    low = centre + 0.95 * bulge
-    bonnet = about_x(
-        turned(
-            [
-                (1.15 * bulge, low),
-                (1.15 * bulge, low + 0.15 * bulge),
-                (0.75 * bulge, low + 0.35 * bulge),
-                (0.7 * bulge, low + 0.8 * tall),
-                (0.5 * bulge, low + tall),
-            ],
-            n,
-        )
-    )
-    cap_ = about_x(
-        merge(
-            [
-                cylinder(0.38 * bulge, low + 0.95 * tall, low + 1.3 * tall, n),
-                hexagon(0.9 * bulge, low + tall, low + 1.1 * tall),
-            ]
-        )
-    )
-    parts = [
-        Part(merge([inlet, ball_, outlet]), BODY, "valve", BODY),
-        Part(bonnet, "valve bonnet", "valve", BODY),
-        Part(cap_, "valve bonnet", "trim", BODY),
-        Part(
-            about_x(bolt_circle(4, 1.0 * bulge, 0.01 + 0.05 * radius, low - 0.15 * bulge, low + 0.15 * bulge)),
-            "bolt",
-            "fastener",
-            BODY,
-            "Connection assembly",
-            True,
-        ),
-    ]
-    if rng.random() < 0.5:
-        arm = rod((low + 1.2 * tall, 0.0, 0.3 * bulge), (low + 0.75 * tall, 0.0, 1.6 * bulge), 0.1 * bulge, 8)
-        parts.append(Part(arm, "lever", "handle"))
-    return Model(parts, kind="relief valve")
+
+    tall: float = between(3.5, 5.0, "height of its bonnet / radius of its body")
+    levered: bool = chance(0.5, "a lifting lever")
+
+    def build(self, t: Table) -> Model:
+        radius, size = self.radius, t.flange
+        out = SIZES[min(SIZES.index(self.dn) + 1, len(SIZES) - 1)]
+        centre = 0.6 * size.outer + 0.03  # API 526 proportions: centre to inlet face about the flange's radius and more
+        b, n, reach = 1.6 * radius + 0.010, t.style.round(size.outer / 2), 0.6 * FLANGES[out].outer + 0.03
+        chest = [(r * b, centre + z * b) for r, z in outline(0.8, -1, 1, -0.5, 1, 0.7, 1.15, 0.8, 1.15, 0.95)]
+        outlet = along("y", moved(disc_flange(out, t.style, reach), at(0, 0, -reach)), centre)
+        t.add("valve body", about_x(disc_flange(self.dn, t.style, centre)), about_x(turned(chest, n)), outlet)
+        tall, low = self.tall * b, centre + 0.95 * b
+        rim, top = outline(1.15 * b, low, 1.15 * b, low + 0.15 * b, 0.75 * b, low + 0.35 * b), low + tall
+        t.add("valve bonnet", about_x(turned([*rim, (0.7 * b, low + 0.8 * tall), (0.5 * b, top)], n)))
+        cap = [cylinder(0.38 * b, low + 0.95 * tall, low + 1.3 * tall, n), hexagon(0.9 * b, top, low + 1.1 * tall)]
+        t.add("valve bonnet", *map(about_x, cap), of="trim")
+        bolts = bolt_circle(4, 1.0 * b, 0.01 + 0.05 * radius, low - 0.15 * b, low + 0.15 * b)
+        t.add("bolt", about_x(bolts))
+        if self.levered:
+            t.add("lever", rod((low + 1.2 * tall, 0.0, 0.3 * b), (low + 0.75 * tall, 0.0, 1.6 * b), 0.1 * b, 8))
+        return t.model(kind="relief valve")
 
 
-def _angle(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class GlobeAngle(Valve, name="globe valve/angle", sizes=MID, place="head"):
     """An angle globe valve: inlet from below, outlet to the side, wheel on top."""
-    radius, size = PIPES[dn].radius, FLANGES[dn]
-    centre, bulge = 0.6 * size.outer + 0.04, 1.5 * radius + 0.01
-    n = style.round(size.outer / 2)
-    outlet = moved(along("y", moved(disc_flange(dn, style, centre), at(0, 0, -centre))), at(centre))
-    middle = moved(ball(bulge, n), at(centre))
-    high = centre + max(bulge, 0.52 * size.outer)
-    neck = about_x(
-        turned(
-            [
-                (0.85 * bulge, centre),
-                (0.85 * bulge, high),
-                (1.1 * bulge, high),
-                (1.1 * bulge, high + 0.03),
-                (0.5 * bulge, high + 0.05),
-                (0.4 * bulge, high + 0.05 + 1.2 * radius),
-            ],
-            n,
-        )
-    )
-    top = high + 0.05 + 1.2 * radius
-    rest = [
-        stem(top, top + 0.05 + radius, 0.005 + 0.1 * radius, style),
-        wheel(0.04 + 1.3 * radius, 0, top + 0.03 + 0.7 * radius, style, rng),
-    ]
-    parts = [
-        Part(merge([about_x(disc_flange(dn, style, centre)), middle, outlet]), BODY, "valve", BODY),
-        Part(neck, "valve bonnet", "valve", BODY),
-        *(Part(about_x(p.solid), p.name, p.color, p.bundle) for p in rest),
-    ]
-    return Model(parts, kind="globe valve")
 
+    wheel: Wheel = nested(Wheel, "handwheel")
 
-_BIG = tuple(dn for dn in SIZES if dn >= 40)
-_MID = tuple(dn for dn in SIZES if dn <= 200)
+    def build(self, t: Table) -> Model:
+        radius, size = self.radius, t.flange
+        centre, b, n = 0.6 * size.outer + 0.04, 1.5 * radius + 0.01, t.style.round(size.outer / 2)
+        outlet = along("y", moved(disc_flange(self.dn, t.style, centre), at(0, 0, -centre)), centre)
+        high = centre + max(b, 0.52 * size.outer)
+        top = high + 0.05 + 1.2 * radius
+        inlet = about_x(disc_flange(self.dn, t.style, centre))
+        t.add("valve body", inlet, moved(ball(b, n), at(centre)), outlet)
+        neck = outline(0.85 * b, centre, 0.85 * b, high, 1.1 * b, high, 1.1 * b, high + 0.03, 0.5 * b, high + 0.05)
+        t.add("valve bonnet", about_x(turned([*neck, (0.4 * b, top)], n)))
+        t = t.moved(np.eye(4)[[2, 0, 1, 3]])  # as ``about_x`` lays it
+        put_spindle(t, top, top + 0.05 + radius, 0.005 + 0.1 * radius)
+        self.wheel.build(t, 0.04 + 1.3 * radius, top + 0.03 + 0.7 * radius, "")
+        return t.model(kind="globe valve")
 
 
 def valve_family(
@@ -644,23 +527,7 @@ def valve_family(
     return Family(name, place, "Valve assembly", "valve", build, sizes, weight=weight)
 
 
-VALVE_FAMILIES: tuple[Family, ...] = (
-    valve_family("control valve/diaphragm", _control_diaphragm, weight=1.5),
-    valve_family("control valve/electric", _control_electric),
-    valve_family("ball valve/driven", _ball_driven, weight=2),
-    valve_family("ball valve/compact", _ball_compact, tuple(dn for dn in SIZES if FLANGES[dn].n_bolts == 4)),
-    valve_family("plug valve/tapered", _plug, _MID),
-    valve_family("diaphragm valve/weir", _weir, _MID),
-    valve_family("butterfly valve/wafer", _butterfly_wafer, _BIG, weight=1.5),
-    valve_family("butterfly valve/lug", _butterfly_lug, _BIG),
-    valve_family("butterfly valve/flanged", _butterfly_flanged, _BIG),
-    valve_family("knife gate valve/wafer", _knife, _BIG),
-    valve_family("check valve/wafer", _wafer_check, _BIG, weight=1.5),
-    valve_family("check valve/ball", _ball_check, _MID),
-    valve_family("check valve/axial", _nozzle_check),
-    valve_family("three-way valve/flanged", _three_way, _MID),
-    valve_family("globe valve/Y pattern", _y_globe, _MID),
-    valve_family("pressure reducing valve/spring", _reducing, _MID),
-    valve_family("relief valve/spring", _relief, _MID, "head", 2),
-    valve_family("globe valve/angle", _angle, _MID, "head"),
-)
+VALVE_FAMILIES = families_of(
+    ControlDiaphragm, ControlElectric, BallDriven, BallCompact, PlugTapered, Weir, ButterflyWafer, ButterflyLug,
+    ButterflyFlanged, Knife, WaferCheck, BallCheck, NozzleCheck, ThreeWay, GlobeY, Reducing, Relief, GlobeAngle,
+)  # fmt: skip
