@@ -239,8 +239,8 @@ class Duckfoot(Device, name="pump/duckfoot", group=PUMP, label="pump", bundle=CA
         lift = motor.at(0, 0, end + 0.45 * r).spun("x", np.pi / 2)
         lift.add("lifting lug", torus(0.35 * r, 0.05 * r, 14, 6), own=True)
         port, top = self._bend(t, axis, face, n)
-        for y in BOTH:
-            y, z = y * 0.3 * outer, axis + outer / 2 + 0.03
+        for side in BOTH:
+            y, z = side * 0.3 * outer, axis + outer / 2 + 0.03
             t.add("post", rod((face + 0.02, y, z), (face + 0.02, y, top + 1.2), 0.02, 8))
         t.add("bracket", box((0.05, outer, 0.06), (face + 0.02, 0, axis + outer / 2 + 0.06)))
         cable = [(0.35 * r, 0.3 * r, end + 0.3 * r), (0.4 * r, 0.4 * r, end + 0.8 * r)]

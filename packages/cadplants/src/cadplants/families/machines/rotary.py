@@ -266,8 +266,8 @@ class RingSection(Pump, name="pump/ring section", sizes=(40, 50, 65, 80, 100)):
         rise, mid = 1.12 * r + dead_room(dn) + 0.02, half + end / 2
         drum = turned(outline(1.12 * r, half, 1.12 * r, half + end, 0.6 * r, half + end + 0.2 * r), n)
         drums = []
-        for sign, way in ((-1, "-x"), (1, "x")):
-            drums.append(along(way, drum, 0, 0, axis))
+        for sign, end_axis in ((-1, "-x"), (1, "x")):
+            drums.append(along(end_axis, drum, 0, 0, axis))
             foot = (0.7 * end, 1.9 * r, axis - seat - 0.7 * r)
             drums.append(box(foot, (sign * mid, 0, (seat + axis - 0.7 * r) / 2)))
         face, way = ((-mid, -rise, axis), (0, -1, 0)) if self.level else ((-mid, 0, axis + rise), (0, 0, 1))
