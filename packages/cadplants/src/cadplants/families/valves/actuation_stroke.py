@@ -180,11 +180,8 @@ class _Piston(Params):
 
     def build(self, t: Table, radius: float, tall: float) -> None:
         """Puts it down on a height, for a pipe of a radius [m]."""
-        half, long, t = (
-            self.half * (0.03 + 0.7 * radius),
-            self.long * (0.03 + 0.7 * radius),
-            t.at(0, 0, tall).bundled("actuator"),
-        )
+        asked, t = 0.03 + 0.7 * radius, t.at(0, 0, tall).bundled("actuator")
+        half, long = self.half * asked, self.long * asked
         n = t.n(half, 16)
         if self.form == "tie rods":
             plate = rounded_rectangle(2.3 * half, 2.3 * half, 0.2 * half, 2) if self.square else circle(1.25 * half, n)

@@ -175,7 +175,7 @@ class _Spindle(Params):
 class Resilient(Gate, name="gate valve/resilient seated", sizes=BIG):
     """A resilient-seated waterworks gate valve: smooth body, oval bonnet, square cap, wheel or spindle (EN 1171)."""
 
-    long: float = among((1.0, 1.9), "length over a small valve's / of series 14 (EN 558), the other being series 15")
+    long: float = among((1.0, 1.9), "length over a small valve's / of series 14; 1.9 is series 15 (EN 558)")
     plate: str = among(("oval", "square", "octagon"), "outline of its bonnet's flange")
     footed: bool = chance(0.5, "a foot below it")
     ringed: bool = chance(0.5, "a ring round its stuffing box")

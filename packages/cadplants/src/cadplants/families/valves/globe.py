@@ -42,13 +42,9 @@ class GlobeBody(Params):
 
     def solid(self, dn: int, style: ModelingStyle, length: float, ends: str, seat: float, throat: float) -> Solid:
         """The body of a length between ends of a kind, up to the height ``seat`` [m]."""
-        radius, (neck, back), flanged = PIPES[dn].radius, neck_of(dn), ends == "flanged"
-        low, neck, b, run = (
-            back if flanged else 0.12 * length,
-            neck if flanged else 1.1 * radius,
-            self.belly * radius + 0.006,
-            1.15 * radius + 0.003,
-        )
+        radius = PIPES[dn].radius
+        neck, low = neck_of(dn) if ends == "flanged" else (1.1 * radius, 0.12 * length)
+        b, run = self.belly * radius + 0.006, 1.15 * radius + 0.003
         middle = outline(neck, low, run, 0.28 * length, run, 0.72 * length, neck, length - low)
         n = max(16, style.round(b))
         if self.form == "bowl":
