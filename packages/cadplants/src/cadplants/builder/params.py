@@ -107,6 +107,7 @@ class Field:
         otherwise: its value where it has not.
         piece: the class of a piece with parameters of its own.
         of_style: whether the style says it.
+        fixed: what the fields before set of such a piece, by name.
     """
 
     about: str
@@ -118,6 +119,7 @@ class Field:
     otherwise: Any = None
     piece: type[Params] | None = None
     of_style: bool = False
+    fixed: Callable[[Any], Mapping[str, Any]] = lambda _: {}
 
 
 def _field(spec: Field) -> Any:
@@ -267,21 +269,34 @@ def styled(default: T, about: str) -> T:
 
 
 def nested(
-    kind: type[P] | Callable[[Source, Any], P], about: str, *, when: When | None = None, otherwise: P | None = None
+    kind: type[P] | Callable[[Source, Any], P],
+    about: str,
+    *,
+    fixed: Callable[[Any], Mapping[str, Any]] = lambda _: {},
+    when: When | None = None,
+    otherwise: P | None = None,
 ) -> P:
-    """A piece with parameters of its own: of one class, or of whichever class a function draws."""
+    """A piece with parameters of its own: of one class, or of whichever class a function draws.
+
+    Args:
+        kind: the class, or what draws one.
+        about: what it is.
+        fixed: what the fields before set of a piece of one class, by name.
+        when: whether the device has it.
+        otherwise: what it is where it has not.
+    """
     make: Any = kind
     piece: type[Params] | None = kind if isinstance(kind, type) else None
 
     def sample(source: Source, before: Any) -> Any:
-        return piece.draw(source) if piece is not None else make(source, before)
+        return piece.draw(source, fixed(before)) if piece is not None else make(source, before)
 
     def accept(value: Any, before: Any) -> P:
         if isinstance(value, Params):
             return value  # type: ignore[return-value]
         raise ValueError("give its own fields, as name.field=value")
 
-    return _field(Field(about, "", "see its own", sample, accept, when, otherwise, piece))  # type: ignore[no-any-return]
+    return _field(Field(about, "", "see its own", sample, accept, when, otherwise, piece, fixed=fixed))  # type: ignore[no-any-return]
 
 
 def several(
@@ -383,7 +398,9 @@ class Params:
             elif name in given:
                 values[name] = _accepted(name, spec, given[name], before)
             elif any(inner) and spec.piece is not None:
-                values[name] = _draw_piece(name, spec.piece, source.of(name), *inner)
+                told, fixed_within = inner
+                said = {**spec.fixed(before), **fixed_within}
+                values[name] = _draw_piece(name, spec.piece, source.of(name), told, said)
                 continue
             else:
                 values[name] = spec.sample(source.of(name), before)

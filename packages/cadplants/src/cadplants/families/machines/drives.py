@@ -309,8 +309,9 @@ class Train(Params):
     guarded: bool = chance(0.85, "a guard over the coupling")
     guard: str = among(GUARDS, "form of the guard", when=lambda p: p.guarded, otherwise="")
     motor: Motor = nested(
-        lambda s, p: Motor.draw(s, {"standing": True, "fine": p.fine, **_frame_of(p)}),
+        Motor,
         "motor",
+        fixed=lambda p: {"standing": True, "fine": p.fine, **_frame_of(p)},
     )
 
     def build(self, t: Table, x: float, axis: float, seat: float, r: float) -> tuple[float, list[float]]:

@@ -86,7 +86,7 @@ class _OnRod(Params):
     ringed: bool = given(False, "its case is an open ring")
     radius: float = among((0.025, 0.0315, 0.05, 0.05, 0.08), "of the case", "m")
     rise: float = between(0.02, 0.1, "height of the case's underside", "m")
-    case: _Case = nested(lambda s, p: _Case.draw(s, {"ringed": p.ringed}), "case")
+    case: _Case = nested(_Case, "case", fixed=lambda p: {"ringed": p.ringed})
     rod: _Rod = nested(_Rod, "rod")
 
     def build(self, t: Table) -> None:
@@ -102,7 +102,7 @@ class _Instrument(Device, place="tap", group="Gauge assembly", label="gauge"):
 class RodAndDisc(_Instrument, name="gauge/rod and disc", weight=3):
     """A rod and a round case upright on it."""
 
-    gauge: _OnRod = nested(lambda s, _: _OnRod.draw(s, {"ringed": False}), "gauge")
+    gauge: _OnRod = nested(_OnRod, "gauge", fixed=lambda _: {"ringed": False})
 
     def build(self, t: Table) -> Model:
         self.gauge.build(t)
@@ -112,7 +112,7 @@ class RodAndDisc(_Instrument, name="gauge/rod and disc", weight=3):
 class RingCase(RodAndDisc, name="gauge/ring case", weight=2):
     """A rod and a ring upright on it."""
 
-    gauge: _OnRod = nested(lambda s, _: _OnRod.draw(s, {"ringed": True}), "gauge")
+    gauge: _OnRod = nested(_OnRod, "gauge", fixed=lambda _: {"ringed": True})
 
 
 class BentBar(_Instrument, name="siphon/bent bar"):
@@ -125,7 +125,7 @@ class BentBar(_Instrument, name="siphon/bent bar"):
     high: float = between(0.08, 0.2, "height of its bends", "m")
     nut: bool = chance(0.5, "a nut at its end")
     ringed: bool = chance(0.5, "the gauge's case is an open ring")
-    gauge: _OnRod = nested(lambda s, p: _OnRod.draw(s, {"ringed": p.ringed}), "gauge")
+    gauge: _OnRod = nested(_OnRod, "gauge", fixed=lambda p: {"ringed": p.ringed})
     # A hair of air or of overlap, as screwed pieces are drawn.
     gap: float = among((0.0, 0.0, -0.004), "between the bar and the gauge", "m")
 

@@ -22,7 +22,7 @@ __all__ = ["PRIMITIVE_MACHINES"]
 
 
 def _snout(dn: Callable[[Any], int], about: str) -> Snout:
-    return nested(lambda s, p: Snout.draw(s, {"dn": dn(p)}), about)
+    return nested(Snout, about, fixed=lambda p: {"dn": dn(p)})
 
 
 class _Motor(Params):
@@ -267,7 +267,7 @@ class _Upright(_Vessel):
 
 
 def _stand(thin: bool) -> _Stand:
-    return nested(lambda s, _: _Stand.draw(s, {"thin": thin}), "what it stands on")
+    return nested(_Stand, "what it stands on", fixed=lambda _: {"thin": thin})
 
 
 class UprightTank(_Upright, name="tank/upright of primitives", group="Tank", label="tank", weight=3):

@@ -56,7 +56,7 @@ class _Mouth(Params):
 
 
 def _mouth(dn: Callable[[Any], int], about: str) -> _Mouth:
-    return nested(lambda s, p: _Mouth.draw(s, {"dn": dn(p)}), about)
+    return nested(_Mouth, about, fixed=lambda p: {"dn": dn(p)})
 
 
 class _Volute(Params):

@@ -57,7 +57,7 @@ class _Section(Params):
 
 
 def _section(least: float = 0.06, most: float = 0.25, when: Callable[[Any], bool] | None = None) -> _Section:
-    return nested(lambda s, _: _Section.draw(s, {"least": least, "most": most}), "rolled section", when=when)
+    return nested(_Section, "rolled section", fixed=lambda _: {"least": least, "most": most}, when=when)
 
 
 class _Foot(Params):

@@ -97,7 +97,7 @@ def _first(form: str) -> tuple[_Stretch, ...]:
 
 def _last(form: str) -> _Stretch:
     longest = 3.0 if form == "rungs" else 6.0
-    return nested(lambda s, _: _Stretch.draw(s, {"form": form, "followed": False, "longest": longest}), "last stretch")
+    return nested(_Stretch, "last stretch", fixed=lambda _: {"form": form, "followed": False, "longest": longest})
 
 
 class PlainDuct(_Way, name="cable tray/plain duct", weight=2.0):

@@ -133,7 +133,7 @@ def _screwed() -> float:
 
 
 def _plates() -> _Plates:
-    return nested(lambda s, p: _Plates.draw(s, {"dn": p.dn}), "discs at its ends")
+    return nested(_Plates, "discs at its ends", fixed=lambda p: {"dn": p.dn})
 
 
 def _no_plates() -> _Plates:

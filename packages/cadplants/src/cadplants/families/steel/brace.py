@@ -302,7 +302,7 @@ class Gantry(Structure, name="frame/gantry", label="beam", grain="fitting"):
     wheeled: bool = chance(0.6, "on casters", when=_portal)
     make: str = among(("swivel", "heavy", "braked"), "of the casters", when=_on_casters)
     radius: float = between(0.05, 0.09, "of a caster's wheel", "m", when=_on_casters)
-    casters: Casters = nested(lambda s, p: Casters.draw(s, {"makes": (p.make,)}), "casters", when=_on_casters)
+    casters: Casters = nested(Casters, "casters", fixed=lambda p: {"makes": (p.make,)}, when=_on_casters)
     called: tuple[str, ...] = each(one_of("brace", "beam"), "what a tie is called", count=2, when=_portal)
     runway_size: float = between(0.12, 0.24, "height of the runway's section", "m", when=_portal)
     runway: str = among(("I", "IPN", "H"), "section of the runway", when=_portal)

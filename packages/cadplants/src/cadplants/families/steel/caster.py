@@ -288,7 +288,7 @@ class Trolley(Structure, name="caster/stem", weight=1.2, grain="fitting"):
     width: float = between(0.4, 0.7, "from upright to upright", "m")
     height: float = between(0.5, 1.0, "of an upright", "m")
     make: str = among(("stem", "twin"), "of the casters")
-    casters: Casters = nested(lambda s, p: Casters.draw(s, {"makes": (p.make,)}), "casters")
+    casters: Casters = nested(Casters, "casters", fixed=lambda p: {"makes": (p.make,)})
     shelves: int = whole(2, 3, "one above the other")
     handle: bool = chance(0.6, "a push handle")
 

@@ -200,10 +200,11 @@ class Leaning(Structure, name="ladder/leaning", weight=0.7, grain="fitting"):
     hung: bool = chance(0.25, "hung up level")
     tilt: float = between(0.2, 0.35, "from upright", "rad", when=lambda p: not p.hung)
     count: int = whole(1, 2, "sections", when=lambda p: not p.hung, otherwise=1)
-    lower: _Portable = nested(lambda s, p: _Portable.draw(s, {"long": p.length}), "lower section")
+    lower: _Portable = nested(_Portable, "lower section", fixed=lambda p: {"long": p.length})
     upper: _Portable = nested(
-        lambda s, p: _Portable.draw(s, {"long": p.length, "low": 0.4 * p.length}),
+        _Portable,
         "upper section",
+        fixed=lambda p: {"long": p.length, "low": 0.4 * p.length},
         when=lambda p: p.count == 2,
     )
 
@@ -299,7 +300,7 @@ class Mobile(Structure, name="ladder/mobile", weight=0.9, grain="fitting"):
     going: float = between(0.19, 0.25, "of a step", "m")
     land: float = between(0.4, 0.7, "length of the platform", "m")
     make: str = among(("swivel", "stem", "fixed"), "of the casters")
-    casters: Casters = nested(lambda s, p: Casters.draw(s, {"makes": (p.make,)}), "casters")
+    casters: Casters = nested(Casters, "casters", fixed=lambda p: {"makes": (p.make,)})
     railed: bool = chance(0.8, "a railing on either side")
     step: str = among(("bar", "sheet", "fold", "perforated"), "how steps and platform are made")
 

@@ -65,7 +65,7 @@ class Posts(Params):
     @staticmethod
     def of(*shapes: str) -> Posts:
         """Of a fence, one more than it has bays."""
-        return nested(lambda s, p: Posts.draw(s, {"count": p.count + 1, "shapes": shapes}), "of the fence")
+        return nested(Posts, "of the fence", fixed=lambda p: {"count": p.count + 1, "shapes": shapes})
 
     def build(self, t: Table, xs: Sequence[float], h: float) -> float:
         """Puts them down at some places along x; half their width [m]."""
@@ -191,8 +191,9 @@ class Screen(Structure, name="fence/screen"):
         "trapezoidal sheet, upright boards, level boards, slats or precast planks",
     )
     posts: Posts = nested(
-        lambda s, p: Posts.draw(s, {"count": p.count + 1, "shapes": _SCREEN_POSTS.get(p.fill, ("SHS", "H", "U"))}),
+        Posts,
         "of the screen",
+        fixed=lambda p: {"count": p.count + 1, "shapes": _SCREEN_POSTS.get(p.fill, ("SHS", "H", "U"))},
     )
     joined: tuple[bool, ...] = each(yes(0.65), "whether a bay is one mesh")
 
@@ -348,7 +349,7 @@ class Swing(Structure, name="gate/swing", weight=1.3, grain="fitting"):
     width: float = between(0.8, 2.0, "of a leaf", "m")
     height: float = between(0.9, 2.2, "of a leaf's top", "m")
     low: float = between(0.04, 0.12, "height of a leaf's underside", "m")
-    posts: Posts = nested(lambda s, _: Posts.draw(s, {"shapes": ("SHS", "SHS", "H", "CHS")}), "of the gate")
+    posts: Posts = nested(Posts, "of the gate", fixed=lambda _: {"shapes": ("SHS", "SHS", "H", "CHS")})
     leaves: tuple[_Swung, ...] = each(made(_Swung), "leaf")
 
     def build(self, t: Table) -> Model:

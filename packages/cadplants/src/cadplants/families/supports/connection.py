@@ -76,7 +76,7 @@ def _is(p: Any, form: str) -> bool:
 
 def _standing(depth: Callable[[Any], float], when: Any = None) -> _Below:
     """A field: what a carrier stands on, whose underside is this far below the line's axis [m]."""
-    return nested(lambda s, p: _Below.draw(s, {"free": p.height - depth(p)}), "what it stands on", when=when)
+    return nested(_Below, "what it stands on", fixed=lambda p: {"free": p.height - depth(p)}, when=when)
 
 
 class UBolt(Carrier, name="u-bolt/support", label="u-bolt", bundle="u-bolt", weight=2):

@@ -332,7 +332,7 @@ class Foot(_Joint, name="gusset plate/foot"):
     size: float = among((0.1, 0.14, 0.2), "height of the column's section", "m")
     tall: float = between(0.7, 2.0, "height of the column", "m")
     flat: bool = chance(0.6, "the column is of a section with flat sides")
-    section: Section = nested(lambda s, p: Section.draw(s, {"flat": p.flat}), "section of the column")
+    section: Section = nested(Section, "section of the column", fixed=lambda p: {"flat": p.flat})
     side: float = between(0.16, 0.3, "width of the base plate - of the column", "m")
     thick: float = among((0.02, 0.03, 0.04), "of the base plate", "m")
     low: float = among((0.1, 0.2, 0.4), "height of the pedestal", "m")

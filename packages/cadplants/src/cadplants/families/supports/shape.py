@@ -203,7 +203,7 @@ def chances(share: float, count: int | Callable[[Any], int], about: str, when: W
 
 def piece_of(kind: type[P], about: str, *said: str, when: When | None = None) -> P:
     """A field: a piece that is told some of the fields before, by their names."""
-    return nested(lambda s, p: kind.draw(s, {name: getattr(p, name) for name in said}), about, when=when)
+    return nested(kind, about, fixed=lambda p: {name: getattr(p, name) for name in said}, when=when)
 
 
 class Feet(Params):
@@ -263,7 +263,7 @@ class Section(Params):
 
 def section_of(about: str, flat: bool = False, when: When | None = None) -> Section:
     """A field: the section of a bar."""
-    return nested(lambda s, _: Section.draw(s, {"flat": flat}), about, when=when)
+    return nested(Section, about, fixed=lambda _: {"flat": flat}, when=when)
 
 
 def piecemeal(p: Any) -> bool:
@@ -337,7 +337,7 @@ class _Leg(Feet):
     margin: float = between(0.06, 0.14, "width of the foot - of the shaft", "m")
     foot: Footing = foot_of()
     flat: bool = chance(0.7, "of a section that is level above")
-    section: Section = nested(lambda s, p: Section.draw(s, {"flat": p.flat}), "section of the shaft")
+    section: Section = nested(Section, "section of the shaft", fixed=lambda p: {"flat": p.flat})
 
     def build(self, t: Table, low: float, high: float, size: float) -> None:
         """Puts it down about z, between two heights, for a shaft of this width [m]."""
@@ -418,7 +418,7 @@ class Below(Feet):
 
 def standing(depth: Callable[[Any], float], when: When | None = None) -> Below:
     """A field: what a carrier stands on, whose underside is this far below the line's axis [m]."""
-    return nested(lambda s, p: Below.draw(s, {"free": p.height - depth(p), **_feet(p)}), "what it stands on", when=when)
+    return nested(Below, "what it stands on", fixed=lambda p: {"free": p.height - depth(p), **_feet(p)}, when=when)
 
 
 def _beside(p: Any) -> bool:
@@ -458,7 +458,8 @@ def hung(half: float | Callable[[Any], float] = 0.0, when: When | None = None) -
     """A field: what a hanger hangs from that is half this wide across the line [m]."""
     wide = half if callable(half) else lambda _: half
     return nested(
-        lambda s, p: Overhead.draw(s, {"height": p.height, "half": wide(p), **_feet(p)}),
+        Overhead,
         "what it hangs from",
+        fixed=lambda p: {"height": p.height, "half": wide(p), **_feet(p)},
         when=when,
     )

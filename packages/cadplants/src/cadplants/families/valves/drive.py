@@ -319,7 +319,7 @@ def driven(
 ) -> Any:
     """A field for a piece that is scaled by a radius, the pipe's if None."""
     of = radius or (lambda p: PIPES[p.dn].radius)
-    return nested(lambda s, p: kind.draw(s, {"radius": of(p)}), about, when=when)
+    return nested(kind, about, fixed=lambda p: {"radius": of(p)}, when=when)
 
 
 def drive_of(

@@ -197,7 +197,7 @@ class Panel(_Station, name="needle valve/panel", weight=0.7):
     core: float = between(0.008, 0.012, "radius of a valve", "m")
     knob: str = among(_KNOBS, _ABOUT_KNOB)
     spot: int = among(lambda p: tuple(range(p.count)), "which place has the valve")
-    needle: _Needle = nested(lambda s, p: _Needle.draw(s, {"knob": p.knob, "radius": p.core}), "headwork of the valve")
+    needle: _Needle = nested(_Needle, "headwork of the valve", fixed=lambda p: {"knob": p.knob, "radius": p.core})
 
     def build(self, t: Table) -> Model:
         r, high, tall, wide = self.core, self.high, self.tall, 0.16 * self.count + 0.1

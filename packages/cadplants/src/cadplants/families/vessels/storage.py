@@ -167,21 +167,19 @@ class _Roofed(_Big):
     """A tank with a fixed roof."""
 
     rise: float = between(0.2, 0.4, "height of the roof / radius of the shell")
-    courses: _Courses = nested(lambda s, p: _Courses.draw(s, {"base": p.base}), "shell")
+    courses: _Courses = nested(_Courses, "shell", fixed=lambda p: {"base": p.base})
 
 
 def _fittings(manned: bool = True) -> _Fittings:
     """Nozzles and a manway of whoever has a radius."""
     return nested(
-        lambda s, p: _Fittings.draw(s, {"manned": manned and p.radius > 0.8}), "nozzles and manway near the bottom"
+        _Fittings, "nozzles and manway near the bottom", fixed=lambda p: {"manned": manned and p.radius > 0.8}
     )
 
 
 def _access() -> _Access:
     """Ladder or stairs of whoever has a radius and a height."""
-    return nested(
-        lambda s, p: _Access.draw(s, {"high": p.base + p.slender * p.radius}), "ladder or stairs, and railing"
-    )
+    return nested(_Access, "ladder or stairs, and railing", fixed=lambda p: {"high": p.base + p.slender * p.radius})
 
 
 class ConeRoof(_Roofed, name="tank/cone roof", weight=1.0):

@@ -97,7 +97,7 @@ class _Upright(Tank, weight=0.7):
     )
     stand: Feet = nested(lambda s, p: FEET[p.feet].draw(s, {"clear": _clear(p)}), "what it stands on")
     count: int = whole(1, 3, "nozzles on the side")
-    first: _Nozzle = nested(lambda s, p: _Nozzle.draw(s, {"room": p.radius}), "first nozzle on the side")
+    first: _Nozzle = nested(_Nozzle, "first nozzle on the side", fixed=lambda p: {"room": p.radius})
     others: tuple[_Further, ...] = several(
         lambda rng, p: _Further.draw(rng, {"room": p.radius}), lambda p: p.count - 1, "further nozzles on the side"
     )
