@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -24,10 +23,10 @@ __all__ = [
     "JOINT",
     "Back",
     "Utility",
-    "back",
     "beam_over",
     "gland",
     "h_column",
+    "hanger",
     "pole",
     "strut",
     "wall",
@@ -102,11 +101,6 @@ def hanger(x: float, y: float, low: float, high: float) -> Solid:
     return rod((x, y, low), (x, y, high), 0.005, 6)
 
 
-def several(solids: Sequence[Solid], name: str, color: str, group: str = "") -> list[Part]:
-    """Each solid as a part of its own."""
-    return [Part(s, name, color, "", group) for s in solids]
-
-
 class Back(Params):
     """What a thing whose back is at y = 0 is fixed to: a wall, a column or a post."""
 
@@ -121,10 +115,3 @@ class Back(Params):
             t.extend([h_column(height, 0.2)])
         else:
             t.at(0, self.radius).extend(pole(height, self.radius, t.style, True))
-
-
-def back(height: float, style: ModelingStyle, rng: np.random.Generator, wide: float = 0.5) -> list[Part]:
-    """A wall, a column or a post behind y = 0, for what is not built on a table yet."""
-    t = Table(style, GROUP)
-    Back.draw(rng).build(t, height, wide)
-    return t.parts

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from cadgraph.model.scene import Floats
 from cadplants.builder.device import families_of
 from cadplants.builder.params import Params, among, between, chance, nested, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.steel.shape import BOTH, CORNERS, each, made, of_form, yes
 from cadplants.families.utilities.mounting import Utility
+from cadplants.families.utilities.tray import perforated
 from cadplants.family import Family, Model
-from cadplants.mesh_ops import Solid, about_x, extrude, lattice, merge, moved
+from cadplants.mesh_ops import Solid, about_x, extrude, merge, moved
 from cadplants.polygon import circle, rounded_rectangle
 from cadplants.primitives import along, around, box, cylinder, dome, hexagon, ring, rod, rope, torus, turned
 from cadplants.transforms import at, spun
@@ -40,12 +40,6 @@ class _Cable(Params):
 
     radius: float = between(0.005, 0.016, "of the cable", "m")
     off: float = between(-0.4, 0.4, "from the middle / width of the tray")
-
-
-def _slotted(low: float, high: float, count: int, wide: float) -> Floats:
-    """Where cells and slots of a perforated sheet begin and end, each cell this wide [m]."""
-    starts = np.linspace(low, high, count + 1)[:-1]
-    return np.sort(np.concatenate([starts, starts + wide, [high]]))
 
 
 class Tray(Utility, name="cable tray/ladder and basket", weight=1.5):
@@ -79,11 +73,7 @@ class Tray(Utility, name="cable tray/ladder and basket", weight=1.5):
             return [*sides, *(box((0.03, w, 0.015), (x, 0, z + 0.02)) for x in np.arange(0.15, length, 0.3))]
         if self.form == "perforated":
             nx, ny = int(np.clip(length / 0.1, 4, 24)), int(np.clip(w / 0.05, 2, 6))
-            xs, ys = _slotted(0, length, nx, 0.06), _slotted(-w / 2, w / 2, ny, 0.6 * w / ny)
-            filled = np.zeros((len(xs) - 1, len(ys) - 1), bool)
-            filled[::2], filled[:, ::2] = True, True
-            filled[-1], filled[:, -1] = True, True
-            return [lattice(xs, ys, filled, z, z + 0.0015), *sides]
+            return [moved(perforated(length, w, (nx, ny), 0.06), at(0, 0, z)), *sides]
         spots = [(-w / 2, side), (-w / 2, side / 2), (w / 2, side / 2), (w / 2, side)]
         spots += [(float(y), 0.0) for y in np.linspace(-w / 2, w / 2, 4)]
         bow = [(-w / 2, z + side), (-w / 2, z), (w / 2, z), (w / 2, z + side)]
