@@ -165,7 +165,7 @@ class Monitor(_Hydrant, name="hydrant/monitor"):
 
     def build(self, t: Table) -> Model:
         r, h, n = self.radius, self.height, t.n(self.radius)
-        rims = ((2.0 * r, 0, 0.022), (r, 0.02, h), (1.9 * r, h - 0.05, h - 0.026), (1.9 * r, h - 0.025, h))
+        rims = ((2.0 * r, 0.0, 0.022), (r, 0.02, h), (1.9 * r, h - 0.05, h - 0.026), (1.9 * r, h - 0.025, h))
         t.add(_H, *(cylinder(*rim, n) for rim in rims))
         s, top = 2.6 * r, t.at(0, 0, h + 0.12 + 4.16 * r)
         bow = outline(0.35, 0.3, 1, 0.5, 1.2, 1, 1, 1.5, 0.2, 1.6, 0, 1.6)
@@ -189,9 +189,9 @@ class Monitor(_Hydrant, name="hydrant/monitor"):
     def _barrel(self, n: int) -> Solid:
         r, long = self.radius, self.long
         if self.foam:
-            tip = ((0.9, 0.15), (1.5, 0.2), (1.5, 1), (1.3, 1))
+            tip = outline(0.9, 0.15, 1.5, 0.2, 1.5, 1, 1.3, 1)
         else:
-            tip = ((0.95, 0.2), (0.7, 0.7), (0.75, 0.72), (1.1, 0.9), (1.1, 1))
+            tip = outline(0.95, 0.2, 0.7, 0.7, 0.75, 0.72, 1.1, 0.9, 1.1, 1)
         return turned([(r, -0.02), *((x * r, z * long) for x, z in tip)], n)
 
 

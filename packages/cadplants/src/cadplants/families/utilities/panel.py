@@ -40,7 +40,7 @@ class _Cubicle(Params):
     """What is on the front of a cubicle: drawers, or a door with a swing handle."""
 
     drawers: bool = given(False, "it has drawers, no door")
-    rows: int = whole(4, 8, "drawers", when=lambda p: p.drawers)
+    tiers: int = whole(4, 8, "drawers", when=lambda p: p.drawers)
     lights: int = whole(1, 4, "pilot lights on the door", when=_closed)
     plated: bool = chance(0.5, "a plate on the door", when=_closed)
     vented: bool = chance(0.5, "slots in the door", when=_closed)
@@ -48,8 +48,8 @@ class _Cubicle(Params):
 
     def build(self, t: Table, w: float, low: float, h: float) -> None:
         """Puts it down before y = 0, on a cubicle this wide from a plinth up to a height [m]."""
-        step = (h - low - 0.1) / max(self.rows, 1)
-        levels = [low + 0.05 + (q + 0.5) * step for q in range(self.rows)]
+        step = (h - low - 0.1) / max(self.tiers, 1)
+        levels = [low + 0.05 + (q + 0.5) * step for q in range(self.tiers)]
         fronts = [box((0.94 * w, 0.015, 0.92 * step), (0, -0.0075, z)) for z in levels]
         bits = []
         for z in levels:
@@ -189,7 +189,7 @@ class Console(_Panel, name="control panel/console"):
     top: float = between(1.1, 1.5, "height of the back", "m", when=_desk)
     slope: float = between(0.1, 0.2, "rise of the desk's top", "m", when=_desk)
     back: float = between(0.15, 0.25, "depth of the back", "m", when=_desk)
-    rows: tuple[int, ...] = each(one_of(1, 2), "rows of knobs on a bay", count=lambda p: p.bays, when=_desk)
+    knobs: tuple[int, ...] = each(one_of(1, 2), "rows of knobs on a bay", count=lambda p: p.bays, when=_desk)
 
     def build(self, t: Table) -> Model:
         if self.pedestal:
@@ -208,7 +208,7 @@ class Console(_Panel, name="control panel/console"):
         one = merge([cylinder(0.012, -0.004, 0.016, 10), cylinder(0.016, -0.004, 0.005, 12)])
         knobs = merge([moved(one, at((i - 2) * 0.16 * w)) for i in range(5)])
         screen = box((0.7 * w, 0.02, 0.25), (0, near - 0.045, (high + slope + top) / 2 + 0.02))
-        for k, rows in enumerate(self.rows):
+        for k, rows in enumerate(self.knobs):
             here = t.at(k * (w + 0.001))
             here.add(_CP, about_x(extrude(np.array(plan), -w / 2, w / 2)))
             spots = [(0, (edge - far) / 2 + q, high + slope / 2 + q * np.tan(rise)) for q in (-0.1, 0.02)[:rows]]
@@ -308,12 +308,12 @@ class _Terminal(Params):
         flameproof = self.form == "flameproof"
         r, wide = {"flameproof": 0.06, "plastic": 0.1}.get(self.form, 0.0) * s, (1.14 if flameproof else 1.02) * s
         body = [extrude(rounded_rectangle(s, s, r, 3), 0.0, 0.75 * deep)]
+        spots: list[tuple[float, float]] = [*CORNERS]
+        far, screw = 0.42 * s, cylinder(0.05 * s, 0.7 * deep, deep + 0.004, 10)
         if flameproof:
             body.append(extrude(rounded_rectangle(wide, wide, r, 3), 0.6 * deep, 0.74 * deep))
             spots = [(i, j) for i in (-1, -0.33, 0.33, 1) for j in BOTH] + [(i, j) for i in BOTH for j in (-0.33, 0.33)]
             far, screw = 0.53 * s, hexagon(0.06 * s, deep, deep + 0.04 * s)
-        else:
-            spots, far, screw = CORNERS, 0.42 * s, cylinder(0.05 * s, 0.7 * deep, deep + 0.004, 10)
         glands = [moved(low, at((k - (count - 1) / 2) * 0.8 * s / max(count, 2))) for k in range(count)]
         sides = zip(BOTH, self.beside, strict=True) if self.form != "pull" else ()
         glands += [moved(low, spun("y", side * np.pi / 2)) for side, there in sides if there]
