@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
-from cadplants.families.chance import pick
+from cadplants.builder.device import Device
+from cadplants.builder.params import Params, among, between
+from cadplants.builder.table import Table
+from cadplants.families.steel.shape import of_form
 from cadplants.family import Part
 from cadplants.mesh_ops import Solid, about_x, extrude, merge, moved
 from cadplants.modeling_style import ModelingStyle
@@ -14,10 +17,30 @@ from cadplants.polygon import section_channel, section_i
 from cadplants.primitives import box, cylinder, hexagon, rod
 from cadplants.transforms import at, spun
 
-__all__ = ["FRAME", "GROUP", "JOINT", "back", "beam_over", "gland", "h_column", "pole", "strut", "wall"]
+__all__ = [
+    "FRAME",
+    "GROUP",
+    "JOINT",
+    "Back",
+    "Utility",
+    "beam_over",
+    "gland",
+    "h_column",
+    "hanger",
+    "pole",
+    "strut",
+    "wall",
+]
 
 GROUP = "Electrical and safety"
 FRAME, JOINT = "Structural element", "Connection assembly"
+
+
+class Utility(Device, place="floor", group=GROUP, sizes=(15,), grain="fitting"):
+    """Electrical or safety equipment that stands by itself; its label is the first word of its name."""
+
+    def __init_subclass__(cls, **said: Any) -> None:
+        super().__init_subclass__(**{"label": said.get("name", "").split("/")[0], **said})
 
 
 def wall(x0: float, x1: float, height: float, thick: float = 0.12) -> Part:
@@ -78,17 +101,17 @@ def hanger(x: float, y: float, low: float, high: float) -> Solid:
     return rod((x, y, low), (x, y, high), 0.005, 6)
 
 
-def several(solids: Sequence[Solid], name: str, color: str, group: str = "") -> list[Part]:
-    """Each solid as a part of its own."""
-    return [Part(s, name, color, "", group) for s in solids]
-
-
-def back(height: float, style: ModelingStyle, rng: np.random.Generator, wide: float = 0.5) -> list[Part]:
+class Back(Params):
     """What a thing whose back is at y = 0 is fixed to: a wall, a column or a post."""
-    kind = pick(rng, "wall", "wall", "column", "post")
-    if kind == "wall":
-        return [wall(-wide, wide, height)]
-    if kind == "column":
-        return [h_column(height, 0.2)]
-    r = float(rng.uniform(0.03, 0.05))
-    return [Part(moved(p.solid, at(0, r)), p.name, p.color, "", p.group, p.fine) for p in pole(height, r, style, True)]
+
+    form: str = among(("wall", "wall", "column", "post"), "what it is")
+    radius: float = between(0.03, 0.05, "half the width of a post", "m", when=of_form("post"))
+
+    def build(self, t: Table, height: float, wide: float = 0.5) -> None:
+        """Puts it down, a wall of twice this width [m]."""
+        if self.form == "wall":
+            t.extend([wall(-wide, wide, height)])
+        elif self.form == "column":
+            t.extend([h_column(height, 0.2)])
+        else:
+            t.at(0, self.radius).extend(pole(height, self.radius, t.style, True))

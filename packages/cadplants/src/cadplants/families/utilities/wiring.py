@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from cadgraph.model.scene import Floats
-from cadplants.families.chance import pick
-from cadplants.families.utilities.mounting import FRAME, GROUP, JOINT, beam_over, h_column, pole, strut, wall
-from cadplants.family import Family, Model, Part
-from cadplants.mesh_ops import Solid, extrude, merge, moved
-from cadplants.modeling_style import ModelingStyle
+from cadplants.builder.device import families_of
+from cadplants.builder.params import Params, among, between, chance, given, whole
+from cadplants.builder.table import Table, outline
+from cadplants.families.steel.shape import BOTH, each, made, number, of_form, yes
+from cadplants.families.utilities.mounting import Utility, beam_over, h_column, pole, strut, wall
+from cadplants.family import Family, Model
+from cadplants.mesh_ops import extrude, merge, moved
 from cadplants.polygon import rounded_rectangle
 from cadplants.primitives import along, box, cylinder, hexagon, ring, rod, rope, torus
 from cadplants.transforms import at, spun
@@ -32,371 +36,344 @@ def _bent(points: list[tuple[float, float, float]], radius: float, steps: int = 
     return np.array([*path, corners[-1]])
 
 
-def _coupling(r: float, x: float, y: float, z: float, axis: str) -> Solid:
-    """A conduit coupling with its two nuts along an axis."""
-    return along(
-        axis,
-        merge(
-            [
-                cylinder(1.25 * r, -1.6 * r, 1.6 * r, 10),
-                hexagon(2.9 * r, -2.2 * r, -1.5 * r),
-                hexagon(2.9 * r, 1.5 * r, 2.2 * r),
-            ]
-        ),
-        x,
-        y,
-        z,
-    )
+def _denser(path: Floats) -> Floats:
+    """A polyline with a point amid each leg and no point twice."""
+    halves = np.empty((2 * len(path) - 1, 3))
+    halves[::2], halves[1::2] = path, path[:-1] + (path[1:] - path[:-1]) * 0.5
+    keep = np.r_[True, np.linalg.norm(np.diff(halves, axis=0), axis=1) > 1e-4]
+    dense: Floats = halves[keep]
+    return dense
 
 
-def _on_struts(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
-    """Parallel steel conduits clamped to strut channels on a wall or on columns, turning down in nested bends."""
-    count, length, z = int(rng.integers(2, 7)), float(rng.uniform(1.4, 3.0)), float(rng.uniform(1.6, 2.4))
-    n = max(6, min(12, style.round(0.02)))
-    y, pitch, parts = -0.041, 0.085, []
-    turn_down = rng.random() < 0.7
-    xs = (0.2 * length, 0.6 * length)
-    for k in range(count):
-        r = float(rng.choice(_SIZES[:4] if count > 4 else _SIZES))
-        zk = z - k * pitch
-        end = length - k * pitch
-        points = [(-0.1, y - r, zk), (end, y - r, zk)]
-        if turn_down:
-            points.append((end, y - r, float(rng.uniform(0.15, 0.5))))
-        elif rng.random() < 0.3:
-            points = [
-                (-0.1, y - r, zk),
-                (0.7 * length, y - r, zk),
-                (0.85 * length, y - r - 0.08, zk),
-                (length + 0.1, y - r - 0.08, zk),
-            ]
-        parts.append(Part(rope(_bent(points, 0.2 + 4 * r), r, n), "conduit", "clamp"))
-        for x in xs:
-            half = np.pi * np.linspace(0, 1, 8)
-            strap = rope([(x, y - r + (r + 0.002) * -np.sin(a), zk + (r + 0.002) * np.cos(a)) for a in half], 0.003, 5)
-            ears = [box((0.03, 0.004, 0.012), (x, y - 0.002, zk + s * (r + 0.008))) for s in (-1, 1)]
-            parts.append(Part(merge([strap, *ears]), "clamp", "clamp", "", JOINT))
-        if rng.random() < 0.4:
-            parts.append(Part(_coupling(r, 0.4 * length, y - r, zk, "x"), "coupling", "clamp", "", "Pipe assembly"))
-    low = z - (count - 1) * pitch
-    for x in xs:
-        bar = moved(strut(-0.08 - (z - low) / 2, 0.08 + (z - low) / 2), at(x, 0, (z + low) / 2) @ spun("y", np.pi / 2))
-        parts.append(Part(bar, "bracket", "clamp", "", JOINT))
-    if rng.random() < 0.5:
-        parts.append(wall(-0.2, length + 0.3, z + 0.4))
-    else:
-        parts += [Part(moved(h_column(z + 0.4).solid, at(x)), "column", "steel", "", FRAME) for x in xs]
-    return Model(parts)
+class _Run(Params):
+    """A conduit on struts."""
 
+    many: bool = given(False, "it is one of many, of which none is thick")
+    turned: bool = given(False, "it turns down at its end")
+    radius: float = among(lambda p: _SIZES[:4] if p.many else _SIZES, "of the conduit", "m")
+    low: float = between(0.15, 0.5, "height of its end", "m", when=lambda p: p.turned)
+    jogged: bool = chance(0.3, "it leaves the row in an offset", when=lambda p: not p.turned)
+    coupled: bool = chance(0.4, "a coupling in it")
 
-def _flexible(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
-    """A rigid conduit up from the floor into a box, and corrugated conduits in loops to devices on posts."""
-    r, h = float(rng.choice(_SIZES[:4])), float(rng.uniform(0.5, 1.2))
-    n, s = max(6, min(12, style.round(0.02))), float(rng.uniform(0.1, 0.2))
-    case = [
-        box((s, 0.6 * s, 1.3 * s), (0, 0, h + 0.65 * s)),
-        box((0.95 * s, 0.08 * s, 1.22 * s), (0, -0.34 * s, h + 0.65 * s)),
-    ]
-    parts = [
-        Part(cylinder(r, 0.0, h - 0.02, n), "conduit", "clamp"),
-        Part(merge([hexagon(2.8 * r, h - 0.03, h), *case]), "junction box", "electrical"),
-    ]
-    for sign in (-1, 1)[: int(rng.integers(1, 3))]:
-        x, z = sign * float(rng.uniform(0.5, 0.9)), float(rng.uniform(0.4, 1.4))
-        q = float(rng.choice([0.008, 0.011, 0.015]))
-        start = h + 0.4 * s
-        a = along(
-            "x" if sign > 0 else "-x",
-            merge([hexagon(3.2 * q, 0, 1.2 * q), cylinder(1.35 * q, 1.0 * q, 3 * q, 10)]),
-            sign * s / 2,
-            0,
-            start,
-        )
-        w = float(rng.uniform(0.08, 0.16))
-        b = moved(merge([hexagon(3.2 * q, -1.2 * q, 0), cylinder(1.35 * q, -3 * q, -1.0 * q, 10)]), at(x, 0, z))
-        path = _bent(
-            [
-                (sign * (s / 2 + 2 * q), 0, start),
-                (sign * (s / 2 + 0.2), 0, start - 0.02),
-                (x - 0.1 * sign, 0.0, z - 0.35),
-                (x, 0, z - 0.3),
-                (x, 0, z - 2 * q),
-            ],
-            0.2,
-            7,
-        )
-        dense = np.vstack(
-            [path[i] + (path[i + 1] - path[i]) * t for i in range(len(path) - 1) for t in np.linspace(0, 1, 3)[:-1]]
-            + [path[-1]]
-        )
-        keep = np.r_[True, np.linalg.norm(np.diff(dense, axis=0), axis=1) > 1e-4]
-        hose = [rope(dense[keep], q, n)]
-        if rng.random() < 0.6:
-            points = dense[keep]
-            for i in range(1, len(points) - 1, 2):
-                d = points[i + 1] - points[i - 1]
-                d = d / np.linalg.norm(d)
-                hose.append(rod(points[i] - 0.3 * q * d, points[i] + 0.3 * q * d, 1.14 * q, n))
-        parts += [Part(merge(hose), "conduit", "rubber"), Part(merge([a, b]), "nut", "clamp", "", JOINT)]
-        device = box((w, w, w), (x, 0, z + w / 2))
-        parts.append(
-            Part(merge([device, moved(cylinder(0.4 * w, 0, 0.02, 12), at(x, 0, z + w))]), "junction box", "electrical")
-        )
-        stand = box((0.05, 0.05, z + 0.5 * w), (x, w / 2 + 0.025, (z + 0.5 * w) / 2))
-        parts.append(Part(stand, "post", "steel", "", FRAME))
-    return Model(parts)
-
-
-def _bodies(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
-    """Thin conduit (EMT) over a wall through conduit bodies (LB, T, C), square boxes and a ceiling box with a lamp."""
-    r, length, z = float(rng.choice(_SIZES[:3])), float(rng.uniform(1.6, 3.2)), float(rng.uniform(1.8, 2.6))
-    n, y = max(6, min(12, style.round(0.02))), -0.02 - r
-    body = moved(extrude(rounded_rectangle(7 * r, 2.8 * r, 1.3 * r, 3), -1.3 * r, 1.3 * r), spun("x", np.pi / 2))
-    lid = moved(extrude(rounded_rectangle(6.4 * r, 2.5 * r, 1.2 * r, 3), 1.3 * r, 1.6 * r), spun("x", np.pi / 2))
-    one = merge([body, lid])
-    parts = []
-    spots = [0.3 * length, 0.65 * length]
-    last = -0.1
-    for x in spots:
-        kind = pick(rng, "body", "square", "round")
-        reach = 3.4 * r
-        if kind == "body":
-            parts.append(Part(moved(one, at(x, y, z)), "junction box", "clamp"))
-        elif kind == "square":
-            reach = 0.05
-            parts.append(
-                Part(
-                    merge([box((0.1, 0.05, 0.1), (x, y, z)), box((0.102, 0.006, 0.102), (x, y - 0.028, z))]),
-                    "junction box",
-                    "clamp",
-                )
-            )
+    def path(self, y: float, z: float, length: float, end: float) -> Floats:
+        """Its middle line at a height, to the end of a straight one [m]."""
+        if self.jogged:
+            spots = [(-0.1, y), (0.7 * length, y), (0.85 * length, y - 0.08), (length + 0.1, y - 0.08)]
+            points = [(x, y, z) for x, y in spots]
         else:
-            reach = 0.043
-            drum = merge(
-                [cylinder(0.045, -0.025, 0.025, style.round(0.05)), cylinder(0.048, 0.025, 0.031, style.round(0.05))]
-            )
-            parts.append(Part(along("-y", drum, x, y, z), "junction box", "clamp"))
-        parts.append(Part(rod((last, y, z), (x - reach + 0.003, y, z), r, n), "conduit", "clamp"))
-        last = x + reach - 0.003
-        if rng.random() < 0.7:
-            low, drop = (
-                float(rng.uniform(0.9, 1.4)),
-                0.049 if kind == "square" else 1.3 * r if kind == "body" else 0.043,
-            )
-            parts.append(Part(rod((x, y, z - drop), (x, y, low), r, n), "conduit", "clamp"))
-            parts.append(_outlet(x, low, y, style, rng))
-    parts.append(
-        Part(rope(_bent([(last, y, z), (length, y, z), (length, y, z + 0.5)], 0.12), r, n), "conduit", "clamp")
-    )
-    straps = []
-    for x in (0.08 * length, 0.48 * length, 0.85 * length):
-        straps.append(
-            merge(
-                [
-                    along("x", ring(r, r + 0.002, -0.008, 0.008, 12), x, y, z),
-                    box((0.016, 0.003 - y - r, 0.012), (x, (y + r) / 2, z)),
-                    box((0.016, 0.003, 4 * r + 0.03), (x, -0.0015, z)),
-                ]
-            )
-        )
-    parts += [Part(s, "clamp", "clamp", "", JOINT) for s in straps]
-    parts.append(wall(-0.2, length + 0.2, z + 0.6))
-    return Model(parts)
+            points = [(-0.1, y, z), (end, y, z), *([(end, y, self.low)] if self.turned else [])]
+        return _bent(points, 0.2 + 4 * self.radius)
 
 
-def _outlet(x: float, top: float, y: float, style: ModelingStyle, rng: np.random.Generator) -> Part:
-    """A surface box under a conduit's end: a switch, a flap socket or a round industrial socket (IEC 60309)."""
-    kind, w = int(rng.integers(3)), 0.075
-    back = 0.0
-    deep = 0.05 - y
-    case = box((w, deep, 0.1), (x, back - deep / 2, top - 0.05))
-    front = back - deep
-    if kind == 0:
-        extra = [
-            box((0.06, 0.006, 0.08), (x, front - 0.003, top - 0.05)),
-            box((0.02, 0.014, 0.035), (x, front - 0.008, top - 0.05)),
-        ]
-    elif kind == 1:
-        extra = [
-            box((0.07, 0.02, 0.07), (x, front - 0.01, top - 0.055)),
-            box((0.074, 0.004, 0.08), (x, front - 0.022, top - 0.055)),
-        ]
-    else:
-        plug = merge(
-            [
-                cylinder(0.03, -0.02, 0.04, style.round(0.03)),
-                cylinder(0.036, 0.04, 0.05, style.round(0.03)),
-                box((0.03, 0.015, 0.02), (0, 0.036, 0.04)),
-            ]
-        )
-        extra = [moved(plug, at(x, front, top - 0.06) @ spun("x", np.pi / 2 + 0.45))]
-    return Part(merge([case, *extra]), "junction box", "electrical")
+class OnStruts(Utility, name="conduit/strut", weight=1.5):
+    """Parallel steel conduits clamped to strut channels on a wall or on columns, turning down in nested bends."""
+
+    count: int = whole(2, 6, "conduits")
+    length: float = between(1.4, 3.0, "of the upper conduit", "m")
+    height: float = between(1.6, 2.4, "of the upper conduit", "m")
+    turned: bool = chance(0.7, "the conduits turn down")
+    runs: tuple[_Run, ...] = each(made(_Run, lambda p: {"many": p.count > 4, "turned": p.turned}), "conduits")
+    walled: bool = chance(0.5, "the struts are on a wall, not on columns")
+
+    def build(self, t: Table) -> Model:
+        length, z, pitch, n = self.length, self.height, 0.085, t.n(0.02, 6, 12)
+        xs = (0.2 * length, 0.6 * length)
+        for k, run in enumerate(self.runs):
+            r, y, high = run.radius, -0.041 - run.radius, z - k * pitch
+            t.add("conduit", rope(run.path(y, high, length, length - k * pitch), r, n))
+            half, reach = np.pi * np.linspace(0, 1, 8), r + 0.002
+            for x in xs:
+                strap = rope([(x, y - reach * np.sin(a), high + reach * np.cos(a)) for a in half], 0.003, 5)
+                t.add("clamp", strap, *(box((0.03, 0.004, 0.012), (x, -0.043, high + s * (r + 0.008))) for s in BOTH))
+            if run.coupled:
+                nuts = [hexagon(2.9 * r, low * r, (low + 0.7) * r) for low in (-2.2, 1.5)]
+                there = t.at(0.4 * length, y, high).along("x")
+                there.add("coupling", cylinder(1.25 * r, -1.6 * r, 1.6 * r, 10), *nuts, of="clamp")
+        rise = (self.count - 1) * pitch / 2
+        for x in xs:
+            t.at(x, 0, z - rise).spun("y", np.pi / 2).add("bracket", strut(-0.08 - rise, 0.08 + rise), of="clamp")
+        if self.walled:
+            t.extend([wall(-0.2, length + 0.3, z + 0.4)])
+        for x in () if self.walled else xs:
+            t.at(x).extend([h_column(z + 0.4)])
+        return t.model()
 
 
-def _catenary(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class _Tail(Params):
+    """A corrugated conduit to a device on a post."""
+
+    reach: float = between(0.5, 0.9, "from the box to the device", "m")
+    height: float = between(0.4, 1.4, "of the device", "m")
+    radius: float = among((0.008, 0.011, 0.015), "of the conduit", "m")
+    device: float = between(0.08, 0.16, "width of the device", "m")
+    ribbed: bool = chance(0.6, "ribs are modelled")
+
+    def build(self, t: Table, sign: int, s: float, start: float) -> None:
+        """Puts it down, from the side of a box this wide, whose gland is on a height [m]."""
+        x, z, q, w, n = sign * self.reach, self.height, self.radius, self.device, t.n(0.02, 6, 12)
+        spots = [(sign * (s / 2 + 2 * q), start), (sign * (s / 2 + 0.2), start - 0.02)]
+        spots += [(x - 0.1 * sign, z - 0.35), (x, z - 0.3), (x, z - 2 * q)]
+        points = _denser(_bent([(x, 0, z) for x, z in spots], 0.2, 7))
+        ribs = []
+        for i in range(1, len(points) - 1, 2) if self.ribbed else ():
+            d = points[i + 1] - points[i - 1]
+            d = 0.3 * q * d / np.linalg.norm(d)
+            ribs.append(rod(points[i] - d, points[i] + d, 1.14 * q, n))
+        t.add("conduit", rope(points, q, n), *ribs, of="rubber")
+        first = merge([hexagon(3.2 * q, 0, 1.2 * q), cylinder(1.35 * q, q, 3 * q, 10)])
+        last = merge([hexagon(3.2 * q, -1.2 * q, 0), cylinder(1.35 * q, -3 * q, -q, 10)])
+        ends = [along("x" if sign > 0 else "-x", first, sign * s / 2, 0, start), moved(last, at(x, 0, z))]
+        t.add("nut", *ends, of="clamp", fine=False)
+        lid = cylinder(0.4 * w, 0, 0.02, 12)
+        t.add("junction box", box((w, w, w), (x, 0, z + w / 2)), moved(lid, at(x, 0, z + w)))
+        t.add("post", box((0.05, 0.05, z + 0.5 * w), (x, w / 2 + 0.025, (z + 0.5 * w) / 2)))
+
+
+class Flexible(Utility, name="conduit/flexible", weight=1.2):
+    """A rigid conduit up from the floor into a box, and corrugated conduits in loops to devices on posts."""
+
+    radius: float = among(_SIZES[:4], "of the rigid conduit", "m")
+    height: float = between(0.5, 1.2, "of the box over the floor", "m")
+    box: float = between(0.1, 0.2, "width of the box", "m")
+    count: int = whole(1, 2, "corrugated conduits")
+    tails: tuple[_Tail, ...] = each(made(_Tail), "corrugated conduits")
+
+    def build(self, t: Table) -> Model:
+        r, h, s = self.radius, self.height, self.box
+        t.add("conduit", cylinder(r, 0.0, h - 0.02, t.n(0.02, 6, 12)))
+        case = box((s, 0.6 * s, 1.3 * s), (0, 0, h + 0.65 * s))
+        lid = box((0.95 * s, 0.08 * s, 1.22 * s), (0, -0.34 * s, h + 0.65 * s))
+        t.add("junction box", hexagon(2.8 * r, h - 0.03, h), case, lid)
+        for sign, tail in zip(BOTH, self.tails, strict=False):
+            tail.build(t, sign, s, h + 0.4 * s)
+        return t.model()
+
+
+class _Spot(Params):
+    """A box in a conduit, with an outlet below or none."""
+
+    form: str = among(("body", "square", "round"), "what it is")
+    dropped: bool = chance(0.7, "a conduit goes down to an outlet")
+    low: float = between(0.9, 1.4, "height of the outlet", "m", when=lambda p: p.dropped)
+    outlet: str = among(("switch", "flap socket", "round socket"), "what it is", when=lambda p: p.dropped, otherwise="")
+
+    def build(self, t: Table, r: float, z: float) -> float:
+        """Puts it down on a wall behind, in a conduit of radius ``r``; how far it reaches along that [m]."""
+        y = -0.02 - r
+        here = t.at(0, y, z)
+        if self.form == "body":
+            body = extrude(rounded_rectangle(7 * r, 2.8 * r, 1.3 * r, 3), -1.3 * r, 1.3 * r)
+            lid = extrude(rounded_rectangle(6.4 * r, 2.5 * r, 1.2 * r, 3), 1.3 * r, 1.6 * r)
+            here.spun("x", np.pi / 2).add("junction box", body, lid, of="clamp")
+        elif self.form == "square":
+            lid = box((0.102, 0.006, 0.102), (0, -0.028, 0))
+            here.add("junction box", box((0.1, 0.05, 0.1)), lid, of="clamp")
+        else:
+            drum = [cylinder(0.045, -0.025, 0.025, t.n(0.05)), cylinder(0.048, 0.025, 0.031, t.n(0.05))]
+            here.along("-y").add("junction box", *drum, of="clamp")
+        return {"body": 3.4 * r, "square": 0.05}.get(self.form, 0.043)
+
+    def drop(self, t: Table, r: float, z: float) -> None:
+        """Puts the conduit down to the outlet there, and the outlet: a surface box, maybe IEC 60309."""
+        y, start, top = -0.02 - r, {"body": 1.3 * r, "square": 0.049}.get(self.form, 0.043), self.low - 0.05
+        t.add("conduit", rod((0, y, z - start), (0, y, self.low), r, t.n(0.02, 6, 12)))
+        deep = 0.05 - y
+        if self.outlet == "switch":
+            front = [((0.06, 0.006, 0.08), (0.0, -0.003, 0.0)), ((0.02, 0.014, 0.035), (0.0, -0.008, 0.0))]
+        else:
+            front = [((0.07, 0.02, 0.07), (0.0, -0.01, -0.005)), ((0.074, 0.004, 0.08), (0.0, -0.022, -0.005))]
+        extra = [moved(box(*one), at(0, -deep)) for one in front]
+        if self.outlet == "round socket":
+            n, knob = t.n(0.03), box((0.03, 0.015, 0.02), (0, 0.036, 0.04))
+            plug = merge([cylinder(0.03, -0.02, 0.04, n), cylinder(0.036, 0.04, 0.05, n), knob])
+            extra = [moved(plug, at(0, -deep, -0.01) @ spun("x", np.pi / 2 + 0.45))]
+        t.at(0, 0, top).add("junction box", box((0.075, deep, 0.1), (0, -deep / 2, 0)), *extra)
+
+
+class Bodies(Utility, name="conduit/bodies", weight=1.5):
+    """Thin conduit (EMT) over a wall through conduit bodies (LB, T, C), square boxes and a ceiling box with a lamp."""
+
+    radius: float = among(_SIZES[:3], "of the conduit", "m")
+    length: float = between(1.6, 3.2, "of the conduit", "m")
+    height: float = between(1.8, 2.6, "of the conduit", "m")
+    spots: tuple[_Spot, ...] = each(made(_Spot), "boxes in it", count=2)
+
+    def build(self, t: Table) -> Model:
+        r, length, z, n, last = self.radius, self.length, self.height, t.n(0.02, 6, 12), -0.1
+        y = -0.02 - r
+        for x, spot in zip((0.3 * length, 0.65 * length), self.spots, strict=True):
+            reach = spot.build(t.at(x), r, z) - 0.003
+            t.add("conduit", rod((last, y, z), (x - reach, y, z), r, n))
+            last = x + reach
+            if spot.dropped:
+                spot.drop(t.at(x), r, z)
+        t.add("conduit", rope(_bent([(last, y, z), (length, y, z), (length, y, z + 0.5)], 0.12), r, n))
+        for x in (0.08 * length, 0.48 * length, 0.85 * length):
+            band = along("x", ring(r, r + 0.002, -0.008, 0.008, 12), 0, y)
+            foot = box((0.016, 0.003, 4 * r + 0.03), (0, -0.0015, 0))
+            t.at(x, 0, z).add("clamp", band, box((0.016, 0.003 - y - r, 0.012), (0, (y + r) / 2, 0)), foot)
+        t.extend([wall(-0.2, length + 0.2, z + 0.6)])
+        return t.model()
+
+
+class _Wire(Params):
+    """A cable from pole to pole."""
+
+    sag: float = between(0.1, 0.35, "in its middle", "m")
+    radius: float = between(0.006, 0.014, "of the cable", "m")
+
+
+def _poles(p: Any) -> bool:
+    return bool(p.poles)
+
+
+def _rail(p: Any) -> bool:
+    return not p.poles
+
+
+class Hanging(Utility, name="cable/hanging", weight=1.2):
     """Cables that hang: sagging from pole to pole on insulators, in loops from a rail's trolleys, or to a drop."""
-    length, h, n = float(rng.uniform(2.0, 4.0)), float(rng.uniform(2.0, 3.5)), 8
-    if rng.random() < 0.5:
-        parts = []
-        for x in (0.0, length):
-            for p in pole(h, 0.05, style, bool(rng.random() < 0.3)):
-                parts.append(Part(moved(p.solid, at(x)), p.name, p.color, "", p.group, p.fine))
-            parts.append(Part(box((0.06, 0.7, 0.06), (x, 0, h + 0.03)), "bracket", "steel", "", JOINT))
-        for y in (-0.28, 0.0, 0.28)[: int(rng.integers(2, 4))]:
-            sag, r = float(rng.uniform(0.1, 0.35)), float(rng.uniform(0.006, 0.014))
-            t = np.linspace(0, 1, 13)
-            line = np.column_stack([t * length, np.full(13, y), h + 0.13 + r - 4 * sag * t * (1 - t)])
-            parts.append(Part(rope(line, r, n), "cable", "rubber"))
-            knob = merge(
-                [cylinder(0.015, 0, 0.07, 10), cylinder(0.03, 0.02, 0.03, 12), cylinder(0.03, 0.045, 0.055, 12)]
-            )
-            parts += [Part(moved(knob, at(x, y, h + 0.06)), "bracket", "dial", "", JOINT) for x in (0.0, length)]
-        return Model(parts)
-    count = int(rng.integers(3, 7))
-    rail = beam_over(-0.3, length + 0.3, h)
-    parts = [*rail]
-    xs = np.linspace(0, length, count)
-    r = float(rng.uniform(0.008, 0.016))
-    path = []
-    for a, b in zip(xs[:-1], xs[1:], strict=True):
-        t = np.linspace(0, 1, 9)[:-1]
-        depth = float(rng.uniform(0.5, 0.8)) * (b - a)
-        path += [(float(a + (b - a) * q), 0.0, float(h - 0.1 - depth * np.sin(np.pi * q) ** 0.7)) for q in t]
-    path.append((float(xs[-1]), 0.0, h - 0.1))
-    for y in (-0.025, 0.025)[: int(rng.integers(1, 3))]:
-        parts.append(Part(rope(np.array(path) + np.array((0.0, y, 0.0)), r, n), "cable", "rubber"))
-    for x in xs:
-        saddle = merge([box((0.05, 0.09, 0.02), (x, 0, h - 0.09)), box((0.04, 0.05, 0.09), (x, 0, h - 0.045))])
-        parts.append(Part(saddle, "pipe hanger", "clamp", "", JOINT))
-    return Model(parts)
+
+    length: float = between(2.0, 4.0, "from end to end", "m")
+    height: float = between(2.0, 3.5, "of poles or rail", "m")
+    poles: bool = chance(0.5, "it is on poles, not on a rail")
+    square: tuple[bool, ...] = each(yes(0.3), "whether a pole is square", count=2, when=_poles)
+    count: int = whole(2, 3, "cables between poles", when=_poles)
+    wires: tuple[_Wire, ...] = each(made(_Wire), "cables between poles", when=_poles)
+    trolleys: int = whole(3, 6, "on the rail", when=_rail)
+    radius: float = between(0.008, 0.016, "of the cables on a rail", "m", when=_rail)
+    depths: tuple[float, ...] = each(
+        number(0.5, 0.8), "depth of a loop / from trolley to trolley", count=lambda p: p.trolleys - 1, when=_rail
+    )
+    lines: int = whole(1, 2, "cables on a rail", when=_rail)
+
+    def build(self, t: Table) -> Model:
+        length, h = self.length, self.height
+        if not self.poles:
+            return self._on_rail(t)
+        for x, square in zip((0.0, length), self.square, strict=True):
+            t.at(x).extend(pole(h, 0.05, t.style, square))
+            t.add("bracket", box((0.06, 0.7, 0.06), (x, 0, h + 0.03)))
+        knob = [cylinder(0.015, 0, 0.07, 10), cylinder(0.03, 0.02, 0.03, 12), cylinder(0.03, 0.045, 0.055, 12)]
+        s = np.linspace(0, 1, 13)
+        for y, wire in zip((-0.28, 0.0, 0.28), self.wires, strict=False):
+            heights = h + 0.13 + wire.radius - 4 * wire.sag * s * (1 - s)
+            t.add("cable", rope(np.column_stack([s * length, np.full(13, y), heights]), wire.radius, 8))
+            for x in (0.0, length):
+                t.at(x, y, h + 0.06).add("bracket", *knob, of="dial")
+        return t.model()
+
+    def _on_rail(self, t: Table) -> Model:
+        h, xs, path = self.height, np.linspace(0, self.length, self.trolleys), []
+        t.extend(beam_over(-0.3, self.length + 0.3, h))
+        for a, b, depth in zip(xs[:-1], xs[1:], self.depths, strict=True):
+            deep = depth * (b - a)
+            path += [(a + (b - a) * q, 0.0, -deep * np.sin(np.pi * q) ** 0.7) for q in np.linspace(0, 1, 9)[:-1]]
+        for y in (-0.025, 0.025)[: self.lines]:
+            t.at(0, y, h - 0.1).add("cable", rope([*path, (xs[-1], 0.0, 0.0)], self.radius, 8))
+        for x in xs:
+            saddle = [box((0.05, 0.09, 0.02), (0, 0, -0.09)), box((0.04, 0.05, 0.09), (0, 0, -0.045))]
+            t.at(float(x), 0, h).add("pipe hanger", *saddle)
+        return t.model()
 
 
-def _coiled(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+def _wound(p: Any) -> bool:
+    return bool(p.form == "drum")
+
+
+def _coil(p: Any) -> bool:
+    return not _wound(p)
+
+
+class Coiled(Utility, name="cable/coiled", weight=1.2):
     """Cable that waits: a coil on a wall hook or on the floor, or wound on a wooden or steel drum."""
-    kind, r = int(rng.integers(3)), float(rng.uniform(0.006, 0.016))
-    if kind == 2:
-        big, wide = float(rng.uniform(0.3, 0.6)), float(rng.uniform(0.3, 0.6))
-        n, core = style.round(big), 0.45 * big
+
+    form: str = among(("floor", "hook", "drum"), "how it waits")
+    radius: float = between(0.006, 0.016, "of the cable", "m")
+    big: float = between(
+        lambda p: 0.3 if _wound(p) else 0.15, lambda p: 0.6 if _wound(p) else 0.35, "radius of coil or drum", "m"
+    )
+    wide: float = between(0.3, 0.6, "of the drum", "m", when=_wound)
+    count: int = whole(4, 8, "turns of the coil", when=_coil)
+    shifts: tuple[float, ...] = each(number(-1.5, 1.5), "how much wider a turn is / radius of the cable", when=_coil)
+    tilts: tuple[float, ...] = each(
+        number(-0.02, 0.02), "of a turn", "rad", count=lambda p: p.count - 1, when=of_form("floor")
+    )
+    height: float = between(1.2, 1.8, "of the hook", "m", when=of_form("hook"))
+
+    def build(self, t: Table) -> Model:
+        r, big = self.radius, self.big
+        if self.form == "drum":
+            return self._drum(t)
+        n, count = t.n(big, 12, 28), self.count
+        rings = [torus(big + shift * r, r, n, 6) for shift in self.shifts]
+        if self.form == "floor":
+            poses = [at(0, 0, r + 1.6 * r * k) @ spun("x", tilt) for k, tilt in enumerate((0.0, *self.tilts))]
+            t.add("cable", *map(moved, rings, poses))
+            t.add("cable", rope([(big, 0, r), (big + 0.02, 0.3, r), (big + 0.3, 0.5, r), (big + 0.8, 0.45, r)], r, 8))
+            for a in (2.0, 4.4):
+                there = t.at(big * np.cos(a), big * np.sin(a), 0.9 * r * count + 0.003).spun("z", a).along("-y")
+                there.add("clamp", torus(0.9 * r * count, 0.003, 10, 4), of="dial")
+            return t.model()
+        z, deep = self.height, 0.06 + 1.7 * r * count
+        poses = [at(0, -0.03 - 1.7 * r * k, z - big) @ spun("x", np.pi / 2) for k in range(count)]
+        t.add("cable", *map(moved, rings, poses))
+        hook = rope([(0, 0, z - r - 0.012), (0, -deep, z - r - 0.012), (0, -deep - 0.01, z + 0.03)], 0.01, 8)
+        t.add("bracket", hook, box((0.08, 0.008, 0.12), (0, -0.004, z)))
+        t.extend([wall(-0.6, 0.6, z + 0.5)])
+        return t.model()
+
+    def _drum(self, t: Table) -> Model:
+        big, wide, n, core = self.big, self.wide, t.n(self.big), 0.45 * self.big
         cheek = [cylinder(big, z, z + 0.03, n) for z in (-wide / 2 - 0.03, wide / 2)]
+        board = box((0.06, 1.6 * big, 0.012))
+        cheek += [moved(board, at(0, 0, s * (wide / 2 + 0.036)) @ spun("z", q)) for s in BOTH for q in (0, np.pi / 2)]
         hub = [cylinder(core, -wide / 2, wide / 2, n), cylinder(0.05, -wide / 2 - 0.035, wide / 2 + 0.035, 12)]
-        cheek += [
-            moved(box((0.06, 1.6 * big, 0.012), (0, 0, s * (wide / 2 + 0.036))), spun("z", q))
-            for s in (-1, 1)
-            for q in (0.0, np.pi / 2)
-        ]
-        turns = int(np.clip(wide / (2.2 * r), 4, 14))
-        step = wide / turns
-        q = step / 2
+        turns = int(np.clip(wide / (2.2 * self.radius), 4, 14))
+        q = wide / turns / 2
         rings = [
-            moved(torus(core + q + k % 2 * 0.3 * q, q, min(n, 24), 6), at(0, 0, -wide / 2 + (k + 0.5) * step))
+            moved(torus(core + q + k % 2 * 0.3 * q, q, min(n, 24), 6), at(0, 0, -wide / 2 + (2 * k + 1) * q))
             for k in range(turns)
         ]
-        lay = at(0, 0, big) @ spun("x", np.pi / 2)
-        out = core + q
-        tail = rope(
-            np.array(
-                [(out * np.cos(a), 0.0, big + out * np.sin(a)) for a in (0.6, 0.2, -0.1)]
-                + [(out + 0.05, -0.1, 0.35 * big), (big + 0.3, -0.3, q), (big + 0.9, -0.35, q)]
-            ),
-            0.9 * q,
-            8,
-        )
-        return Model(
-            [
-                Part(moved(merge([*rings]), lay), "cable", "rubber"),
-                Part(tail, "cable", "rubber"),
-                Part(moved(merge([*cheek, *hub]), lay), "cable", "steel"),
-            ]
-        )
-    big = float(rng.uniform(0.15, 0.35))
-    n = max(12, min(28, style.round(big)))
-    rings = [torus(big + float(rng.uniform(-1.5, 1.5)) * r, r, n, 6) for _ in range(int(rng.integers(4, 9)))]
-    if kind == 0:
-        pile = [
-            moved(s, at(0, 0, r + 1.6 * r * k) @ spun("x", float(rng.uniform(-0.02, 0.02)) if k else 0.0))
-            for k, s in enumerate(rings)
-        ]
-        tail = rope([(big, 0, r), (big + 0.02, 0.3, r), (big + 0.3, 0.5, r), (big + 0.8, 0.45, r)], r, 8)
-        ties = [
-            moved(
-                torus(0.9 * r * len(rings), 0.003, 10, 4),
-                at(big * np.cos(a), big * np.sin(a), 0.9 * r * len(rings)) @ spun("z", a) @ spun("x", np.pi / 2),
-            )
-            for a in (2.0, 4.4)
-        ]
-        return Model(
-            [
-                Part(merge([*pile]), "cable", "rubber"),
-                Part(tail, "cable", "rubber"),
-                *(Part(moved(t, at(0, 0, 0.003)), "clamp", "dial", "", JOINT) for t in ties),
-            ]
-        )
-    z = float(rng.uniform(1.2, 1.8))
-    hang = [moved(s, at(0, -0.03 - 1.7 * r * k, z - big) @ spun("x", np.pi / 2)) for k, s in enumerate(rings)]
-    deep = 0.06 + 1.7 * r * len(rings)
-    hook = rope([(0, 0, z - r - 0.012), (0, -deep, z - r - 0.012), (0, -deep - 0.01, z + 0.03)], 0.01, 8)
-    plate = box((0.08, 0.008, 0.12), (0, -0.004, z))
-    return Model(
-        [
-            Part(merge(hang), "cable", "rubber"),
-            Part(merge([hook, plate]), "bracket", "steel", "", JOINT),
-            wall(-0.6, 0.6, z + 0.5),
-        ]
-    )
+        lying, out = t.at(0, 0, big).spun("x", np.pi / 2), core + q
+        lying.add("cable", *rings)
+        tail = [(out * np.cos(a), 0.0, big + out * np.sin(a)) for a in (0.6, 0.2, -0.1)]
+        tail += [(out + 0.05, -0.1, 0.35 * big), (big + 0.3, -0.3, q), (big + 0.9, -0.35, q)]
+        t.add("cable", rope(tail, 0.9 * q, 8))
+        lying.add("cable", *cheek, *hub, of="steel")
+        return t.model()
 
 
-def _cleated(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class Cleated(Utility, name="cable/cleated"):
     """Cables in cleats up a column or along a wall: in trefoil, in a row, or strapped in a bundle, into a gland box."""
-    h, r = float(rng.uniform(1.6, 2.8)), float(rng.uniform(0.009, 0.022))
-    kind = pick(rng, "trefoil", "row", "bundle")
-    spots = {
-        "trefoil": [(-r, -r), (r, -r), (0.0, -r - 1.732 * r)],
-        "row": [((k - 1.5) * 3.0 * r, -r) for k in range(4)],
-        "bundle": [(-r, -r), (r, -r), (0.0, -2.732 * r), (-2 * r, -2.732 * r), (2 * r, -2.732 * r)],
-    }[kind]
-    gap = 0.02
-    low = float(rng.uniform(0.4, 0.7))
-    wide = max(abs(x) for x, _ in spots) + r
-    deep = -min(y for _, y in spots) + r
-    parts = []
-    for x, y in spots:
-        parts.append(
-            Part(
-                rope([(x, y - gap, h), (x, y - gap, low + 0.02)], r, max(8, min(12, style.round(r)))), "cable", "rubber"
-            )
-        )
-    for z in np.linspace(low + 0.3, h - 0.15, int(rng.integers(2, 5))):
-        base_ = box((2 * wide + 0.05, gap, 0.04), (0, -gap / 2, z))
-        sides = [box((0.02, deep, 0.04), (s * (wide + 0.012), -gap - deep / 2, z)) for s in (-1, 1)]
-        front = box((2 * wide + 0.05, 0.006, 0.04), (0, -gap - deep - 0.003, z))
-        parts.append(Part(merge([base_, *sides, front]), "clamp", "rubber", "", JOINT))
-    w = 2 * wide + 0.12
-    case = merge(
-        [
-            box((w, deep + 2 * gap + 0.04, 0.3), (0, -(deep + 2 * gap + 0.04) / 2, low - 0.15)),
-            box((0.94 * w, 0.01, 0.28), (0, -(deep + 2 * gap + 0.045), low - 0.15)),
-        ]
-    )
-    nuts = [moved(_standing(r), at(x, y - gap, low)) for x, y in spots]
-    parts += [Part(merge([case, *nuts]), "junction box", "electrical")]
-    back = wall(-0.5, 0.5, h + 0.2) if rng.random() < 0.5 else h_column(h + 0.2, 0.2)
-    return Model([*parts, back])
+
+    height: float = between(1.6, 2.8, "of the cables' ends", "m")
+    radius: float = between(0.009, 0.022, "of a cable", "m")
+    form: str = among(("trefoil", "row", "bundle"), "how they lie")
+    low: float = between(0.4, 0.7, "height of the box", "m")
+    cleats: int = whole(2, 4, "cleats")
+    walled: bool = chance(0.5, "behind it is a wall, not a column")
+
+    def build(self, t: Table) -> Model:
+        h, r, low, gap = self.height, self.radius, self.low, 0.02
+        spots = {
+            "trefoil": outline(-r, -r, r, -r, 0.0, -r - 1.732 * r),
+            "row": [((k - 1.5) * 3.0 * r, -r) for k in range(4)],
+            "bundle": outline(-r, -r, r, -r, 0.0, -2.732 * r, -2 * r, -2.732 * r, 2 * r, -2.732 * r),
+        }[self.form]
+        wide, deep = max(abs(x) for x, _ in spots) + r, r - min(y for _, y in spots)
+        for x, y in spots:
+            t.add("cable", rope([(x, y - gap, h), (x, y - gap, low + 0.02)], r, t.n(r, 8, 12)))
+        for z in np.linspace(low + 0.3, h - 0.15, self.cleats):
+            cleat = [box((2 * wide + 0.05, gap, 0.04), (0, -gap / 2, z))]
+            cleat += [box((0.02, deep, 0.04), (s * (wide + 0.012), -gap - deep / 2, z)) for s in BOTH]
+            t.add("clamp", *cleat, box((2 * wide + 0.05, 0.006, 0.04), (0, -gap - deep - 0.003, z)), of="rubber")
+        w, d = 2 * wide + 0.12, deep + 2 * gap + 0.04
+        case = [box((w, d, 0.3), (0, -d / 2, low - 0.15)), box((0.94 * w, 0.01, 0.28), (0, -d - 0.005, low - 0.15))]
+        gland = merge([hexagon(2.6 * r, 0.0, 0.8 * r), cylinder(1.2 * r, 0.7 * r, 1.6 * r, 10)])
+        t.add("junction box", *case, *(moved(gland, at(x, y - gap, low)) for x, y in spots))
+        t.extend([wall(-0.5, 0.5, h + 0.2) if self.walled else h_column(h + 0.2, 0.2)])
+        return t.model()
 
 
-def _standing(r: float) -> Solid:
-    """A gland that stands up from z = 0."""
-    return moved(merge([hexagon(2.6 * r, 0.0, 0.8 * r), cylinder(1.2 * r, 0.7 * r, 1.6 * r, 10)]), at())
-
-
-WIRING: tuple[Family, ...] = tuple(
-    Family(name, "floor", GROUP, name.split("/")[0], build, (15,), "fitting", weight)
-    for name, build, weight in (
-        ("conduit/strut", _on_struts, 1.5),
-        ("conduit/flexible", _flexible, 1.2),
-        ("conduit/bodies", _bodies, 1.5),
-        ("cable/hanging", _catenary, 1.2),
-        ("cable/coiled", _coiled, 1.2),
-        ("cable/cleated", _cleated, 1.0),
-    )
-)
+WIRING: tuple[Family, ...] = families_of(OnStruts, Flexible, Bodies, Hanging, Coiled, Cleated)
