@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from cadplants.builder.device import families_of
+from cadplants.builder.draws import yes
 from cadplants.builder.params import among, between, chance, whole
 from cadplants.builder.table import Table, outline
-from cadplants.families.steel.shape import BOTH, each, yes
+from cadplants.families.steel.shape import BOTH, each
 from cadplants.families.utilities.mounting import Utility, wall
 from cadplants.family import Family, Model
 from cadplants.mesh_ops import Solid, extrude, merge, moved

@@ -7,9 +7,10 @@ from typing import Any
 import numpy as np
 
 from cadplants.builder.device import families_of
+from cadplants.builder.draws import made, of_form, one_of
 from cadplants.builder.params import Params, among, between, chance, nested, whole
 from cadplants.builder.table import Table, outline
-from cadplants.families.steel.shape import BOTH, each, made, of_form, one_of
+from cadplants.families.steel.shape import BOTH, each
 from cadplants.families.utilities.mounting import Back, Utility, beam_over, h_column, hanger, pole, wall
 from cadplants.family import Family, Model
 from cadplants.mesh_ops import Solid, about_x, extrude, merge, moved

@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 
 from cadplants.builder.device import Device
+from cadplants.builder.draws import of_form
 from cadplants.builder.params import Params, among, between
 from cadplants.builder.table import Table
-from cadplants.families.steel.shape import of_form
 from cadplants.family import Part
 from cadplants.mesh_ops import Solid, about_x, extrude, merge, moved
 from cadplants.modeling_style import ModelingStyle

@@ -7,9 +7,10 @@ from typing import Any
 import numpy as np
 
 from cadplants.builder.device import families_of
+from cadplants.builder.draws import made, of_form, one_of, yes
 from cadplants.builder.params import Params, among, between, chance, given, nested, whole
 from cadplants.builder.table import Table, outline
-from cadplants.families.steel.shape import BOTH, CORNERS, each, made, of_form, one_of, yes
+from cadplants.families.steel.shape import BOTH, CORNERS, each
 from cadplants.families.utilities.mounting import Utility, gland, h_column, pole, wall
 from cadplants.family import Family, Model
 from cadplants.mesh_ops import Solid, about_x, extrude, merge, moved

@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from cadplants.builder.device import families_of
+from cadplants.builder.draws import made, of_form, yes
 from cadplants.builder.params import Params, among, between, chance, nested, whole
 from cadplants.builder.table import Table, outline
-from cadplants.families.steel.shape import BOTH, CORNERS, each, made, of_form, yes
+from cadplants.families.steel.shape import BOTH, CORNERS, each
 from cadplants.families.utilities.mounting import Utility
 from cadplants.families.utilities.tray import perforated
 from cadplants.family import Family, Model

@@ -6,9 +6,10 @@ import numpy as np
 
 from cadgraph.model.scene import Floats
 from cadplants.builder.device import families_of
+from cadplants.builder.draws import made, number, of_form
 from cadplants.builder.params import Params, among, between, chance, nested, whole
 from cadplants.builder.table import Table, outline
-from cadplants.families.steel.shape import BOTH, each, made, number, of_form
+from cadplants.families.steel.shape import BOTH, each
 from cadplants.families.utilities.mounting import Back, Utility, beam_over, pole, wall
 from cadplants.family import Family, Model
 from cadplants.mesh_ops import about_x, extrude, merge, moved
