@@ -10,7 +10,18 @@ import numpy as np
 
 from cadplants.builder.device import families_of
 from cadplants.builder.dials import (
-    CASE, STEM, Dial, DialFace, Gland, Indicator, Needle, Shank, StandingGauge, case_of, fine_sides, upright,
+    CASE,
+    STEM,
+    Dial,
+    DialFace,
+    Gland,
+    Indicator,
+    Needle,
+    Shank,
+    StandingGauge,
+    case_of,
+    fine_sides,
+    upright,
 )  # fmt: skip
 from cadplants.builder.params import Source, among, between, chance, nested, several, whole
 from cadplants.builder.table import Table, outline
@@ -23,7 +34,7 @@ from cadplants.plant import Turning
 from cadplants.polygon import rounded_rectangle
 from cadplants.primitives import along, box, cylinder, dome, hexagon, ring, rod, torus, turned
 from cadplants.standards import PIPES
-from cadplants.transforms import at, spun
+from cadplants.transforms import at
 
 __all__ = ["GAUGE_BUILDS"]
 

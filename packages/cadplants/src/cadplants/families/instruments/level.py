@@ -8,7 +8,6 @@ from cadplants.families.instruments.pieces import (
     CASE,
     JOINT,
     TANK,
-    bolted,
     dial,
     fine_sides,
     gland,
@@ -41,8 +40,7 @@ def _heights(rng: np.random.Generator, least: float = 0.35, most: float = 1.1) -
 
 def _beside(low: float, high: float, dn: int, style: ModelingStyle, rng: np.random.Generator) -> list[Part]:
     """A vessel with two flanged nozzles to x = 0, and the joints there."""
-    parts, _ = vessel(low, high, dn, style, rng)
-    return [*parts, *bolted(dn, low, style, _PAD), *bolted(dn, high, style, _PAD)]
+    return vessel(low, high, dn, style, rng)
 
 
 def _arms(low: float, high: float, dn: int, x: float, style: ModelingStyle) -> list[Solid]:
@@ -147,7 +145,7 @@ def _reflex(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
 def _tubular(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A tubular gauge glass between two screwed cocks, with guard rods (13 to 20 mm)."""
     low, high = _heights(rng, 0.2, 0.8)
-    parts = vessel(low, high, 15, style, rng, False)[0]
+    parts = vessel(low, high, 15, style, rng, False)
     x, r, wheel = float(rng.uniform(0.05, 0.09)), float(rng.uniform(0.0065, 0.01)), bool(rng.random() < 0.5)
     metal = [along("x", cylinder(0.0095, 0.0, x, 12), 0, 0, z) for z in (low, high)]
     metal += [along("x", hexagon(0.028, 0.004, 0.02), 0, 0, z) for z in (low, high)]

@@ -10,7 +10,6 @@ from dataclasses import replace
 
 import numpy as np
 
-from cadgraph.model.scene import Floats
 from cadplants.builder.device import Device
 from cadplants.builder.dials import (
     CASE,
@@ -33,30 +32,28 @@ from cadplants.builder.table import Table, outline
 from cadplants.families.valves.valve import bolt_circle, disc_flange
 from cadplants.family import Build, Family, Part, placed
 from cadplants.flange import plate_thickness
-from cadplants.mesh_ops import Solid, extrude, merge, moved
+from cadplants.mesh_ops import Solid, extrude, merge
 from cadplants.modeling_style import ModelingStyle
 from cadplants.plant import Turning
-from cadplants.polygon import circle, rounded_rectangle
-from cadplants.primitives import along, box, cylinder, dome, hexagon, ring, rod, rope, turned
+from cadplants.polygon import rounded_rectangle
+from cadplants.primitives import box, cylinder, dome, hexagon, ring, rod, rope, turned
 from cadplants.standards import FLANGES, PIPES
 from cadplants.transforms import at, spun
 
 __all__ = [
-    "Board",
     "CASE",
-    "FRONT",
-    "Gauge",
-    "Stand",
-    "Vessel",
-    "put",
     "FRAME",
+    "FRONT",
     "JOINT",
     "STEM",
     "STYLES",
     "TANK",
+    "Board",
+    "Gauge",
+    "Stand",
+    "Vessel",
     "bent",
     "board",
-    "bolted",
     "case_of",
     "dial",
     "face_of",
@@ -69,6 +66,7 @@ __all__ = [
     "needle_of",
     "piece",
     "pointer",
+    "put",
     "screws",
     "shank",
     "stand",
@@ -190,87 +188,24 @@ def bent(points: Sequence[Sequence[float]], radius: float, style: ModelingStyle)
 # --- what instruments are mounted on ---
 
 
-def stand(height: float, style: ModelingStyle, rng: np.random.Generator, radius: float = 0.0302) -> list[Part]:
-    """A pipe stand about z (two inches by default) on a base plate [m]."""
-    side = float(rng.uniform(0.15, 0.3))
-    base = box((side, side, 0.01), (0, 0, 0.005))
-    n = style.round(radius)
-    if rng.random() < 0.3:
-        base = cylinder(side / 2, 0.0, 0.01, style.round(side / 2))
-    post = turned([(radius, 0.01), (radius, height - 0.004), (0.8 * radius, height)], n)
-    return [Part(post, "post", "steel", "", FRAME), Part(base, "base plate", "steel", "", FRAME)]
+def stand(height: float, style: ModelingStyle, rng: np.random.Generator) -> list[Part]:
+    """A pipe stand about z; see ``Stand``."""
+    drawn = Stand.draw(rng)
+    return put_down(style, lambda t: drawn.build(t, height))
 
 
 def board(wide: float, low: float, high: float, style: ModelingStyle, rng: np.random.Generator) -> list[Part]:
-    """Something to mount on, its front in y = 0 looking to -y: a wall, or a panel on posts [m]."""
-    if rng.random() < 0.4:
-        deep = float(rng.uniform(0.08, 0.2))
-        tall = high + float(rng.uniform(0.1, 0.6))
-        return [Part(box((wide + 0.4, deep, tall), (0, deep / 2, tall / 2)), "wall", "concrete", "", FRAME)]
-    thick, w = float(rng.choice([0.003, 0.006, 0.012])), float(rng.choice([0.04, 0.05, 0.06]))
-    sheet = box((wide, thick, high - low), (0, thick / 2, (low + high) / 2))
-    parts = [Part(sheet, "plate", "electrical", "", FRAME)]
-    places = (0.0,) if wide < 0.25 else (-wide / 2 + w, wide / 2 - w)
-    for x in places:
-        post = extrude(rounded_rectangle(w, w, 0.1 * w, 2), 0.01, high)
-        parts.append(Part(moved(post, at(x, thick + w / 2)), "post", "steel", "", FRAME))
-        foot = box((2.5 * w, 2.5 * w, 0.01), (x, thick + w / 2, 0.005))
-        parts.append(Part(foot, "base plate", "steel", "", FRAME))
-    return parts
+    """Something to mount on, its front in y = 0; see ``Board``."""
+    drawn = Board.draw(rng)
+    return put_down(style, lambda t: drawn.build(t, wide, low, high))
 
 
 def vessel(
-    low: float, high: float, dn: int, style: ModelingStyle, rng: np.random.Generator, flanged: bool = True
-) -> tuple[list[Part], float]:
-    """A small upright vessel beside the origin with two nozzles towards +x whose faces are in x = 0.
-
-    Args:
-        low: height of the lower nozzle [m].
-        high: of the upper one.
-        dn: of the nozzles.
-        style: that models it.
-        rng: draws what is open.
-        flanged: whether the nozzles end in flanges; else in bosses.
-
-    Returns:
-        Its parts, and the place of its axis [m].
-    """
-    radius, reach = float(rng.uniform(0.15, 0.35)), float(rng.uniform(0.09, 0.15))
-    n, x = style.round(radius), -radius - reach
-    bottom, top = low - 0.06 - 0.1 * radius, high + 0.08
-    shell = cylinder(radius, bottom, top, n)
-    parts = [Part(moved(shell, at(x)), "shell", "tank", "", TANK)]
-    lid = dome(radius, 0.45 * radius, 0.0, n) if rng.random() < 0.6 else cylinder(1.06 * radius, 0.0, 0.015, n)
-    parts.append(Part(moved(lid, at(x, 0, top)), "dished head", "tank", "", TANK))
-    under = dome(radius, 0.4 * radius, 0.0, n)
-    parts.append(Part(moved(under, at(x, 0, bottom) @ spun("x", np.pi)), "dished head", "tank", "", TANK))
-    leg = moved(box((0.04, 0.04, bottom + 0.05), (0, 0, (bottom + 0.05) / 2)), at(0.98 * radius + 0.01))
-    for k in range(3):
-        turn = at(x) @ spun("z", np.pi / 3 + k * 2 * np.pi / 3)
-        parts.append(Part(moved(leg, turn), "tank leg", "steel", "", TANK))
-    for z in (low, high):
-        if flanged:
-            nozzle = along("-x", disc_flange(dn, style, reach + 0.02), 0, 0, z)
-        else:
-            nozzle = along("-x", cylinder(1.35 * PIPES[dn].radius, 0.0, reach + 0.02, style.round(0.02)), 0, 0, z)
-        parts.append(Part(nozzle, "nozzle", "tank", "", TANK))
-    return parts, x
-
-
-def bolted(dn: int, z: float, style: ModelingStyle, pad: float = 0.002) -> list[Part]:
-    """Gasket and bolts of a joint in x = 0 on the height ``z``, a flange on either side."""
-    size, plate, n = FLANGES[dn], plate_thickness(dn), style.round(FLANGES[dn].raised / 2)
-    bolts = bolt_circle(size.n_bolts, size.circle / 2, size.bolt, -plate, plate + pad)
-    disc = ring(PIPES[dn].radius, size.raised / 2, 0.0, pad, n)
-    return [
-        Part(along("x", disc, 0, 0, z), "gasket", "gasket", "", "Pipe assembly"),
-        Part(along("x", bolts, 0, 0, z), "bolt", "fastener", "", JOINT, True),
-    ]
-
-
-def hole(radius: float, style: ModelingStyle) -> Floats:
-    """The outline of a small round hole."""
-    return circle(radius, fine_sides(radius, style))
+    low: float, high: float, dn: int, style: ModelingStyle, rng: np.random.Generator, joints: bool = True
+) -> list[Part]:
+    """A small upright vessel beside the origin; see ``Vessel``."""
+    drawn = Vessel.draw(rng)
+    return put_down(style, lambda t: drawn.build(t, low, high, dn, joints))
 
 
 def gauge_family(
