@@ -13,7 +13,7 @@ from cadplants.builder.table import Table, outline
 from cadplants.families.instruments.pieces import Gauge, bent, put, t_handle
 from cadplants.families.instruments.pressure import COPLANAR, DifferentialHead
 from cadplants.families.valves.valve import flanged_body
-from cadplants.family import Family, Model
+from cadplants.family import Model
 from cadplants.flange import nut_room, plate_thickness
 from cadplants.mesh_ops import Solid, about_x, extrude, merge, moved
 from cadplants.modeling_style import ModelingStyle
@@ -22,7 +22,7 @@ from cadplants.primitives import along, box, cylinder, hexagon, ring, rod, turne
 from cadplants.standards import PIPES, SIZES
 from cadplants.transforms import at, spun
 
-__all__ = ["FLOW_BUILDS", "NAME", "FlowMeter", "measuring_tube", "meter_family"]
+__all__ = ["FLOW_BUILDS", "NAME", "FlowMeter", "measuring_tube"]
 
 NAME = "flow meter"
 Outline = Sequence[tuple[float, float]]
@@ -347,10 +347,3 @@ class StraightCoriolis(FlowMeter, name="flow meter/straight coriolis", sizes=tup
 FLOW_BUILDS = families_of(
     Ultrasonic, ClampOn, Wedge, Cone, Venturi, Nozzle, PitotBar, ThermalInsertion, Wafer, BoxyRemote, StraightCoriolis
 )
-
-
-def meter_family(
-    name: str, build: object, place: str = "inline", sizes: tuple[int, ...] = SIZES, weight: float = 1.0
-) -> Family:
-    """A family of flow meters."""
-    return Family(name, place, "Gauge assembly", NAME, build, sizes, weight=weight)  # type: ignore[arg-type]
