@@ -1,167 +1,30 @@
-"""What instruments are put together from: dials, shanks, housings, boxes, and posts, boards and vessels to hold them.
-
-Devices stand on z = 0 about the z axis unless a function says otherwise; their fronts look to -y.
-"""
+"""What instruments are put together from, besides dials and heads: tubes, handles, and stands, boards and vessels."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 import numpy as np
 
 from cadplants.builder.device import Device
 from cadplants.builder.dials import (
     CASE,
-    CASES,
-    STEM,
-    Dial,
-    DialFace,
-    Gland,
-    Housing,
-    Indicator,
-    Needle,
-    Shank,
-    StandingGauge,
-    case_of,
     fine_sides,
-    put_down,
 )  # fmt: skip
 from cadplants.builder.params import Params, among, between, chance
 from cadplants.builder.table import Table, outline
 from cadplants.families.valves.valve import bolt_circle, disc_flange
-from cadplants.family import Build, Family, Part, placed
 from cadplants.flange import plate_thickness
 from cadplants.mesh_ops import Solid, extrude, merge
 from cadplants.modeling_style import ModelingStyle
-from cadplants.plant import Turning
 from cadplants.polygon import rounded_rectangle
 from cadplants.primitives import box, cylinder, dome, hexagon, ring, rod, rope, turned
 from cadplants.standards import FLANGES, PIPES
-from cadplants.transforms import at, spun
 
-__all__ = [
-    "CASE",
-    "FRAME",
-    "FRONT",
-    "JOINT",
-    "STEM",
-    "STYLES",
-    "TANK",
-    "Board",
-    "Gauge",
-    "Stand",
-    "Vessel",
-    "bent",
-    "board",
-    "case_of",
-    "dial",
-    "face_of",
-    "fine_sides",
-    "gauge_family",
-    "gland",
-    "headed",
-    "housing",
-    "indicator",
-    "needle_of",
-    "piece",
-    "pointer",
-    "put",
-    "screws",
-    "shank",
-    "stand",
-    "standing",
-    "t_handle",
-    "upright",
-    "vessel",
-]
+__all__ = ["FRONT", "Board", "Gauge", "Stand", "Vessel", "bent", "put", "t_handle"]
 
-FRAME, JOINT, TANK = "Structural element", "Connection assembly", "Tank"
-STYLES = CASES
-UPRIGHT = spun("x", np.pi / 2)  # what looks to +z then looks to -y, its y axis up
-
-
-def piece(solid: Solid | Sequence[Solid], name: str, color: str, bundle: str = "") -> Part:
-    """A part of a gauge, of the bundle that its name says by default."""
-    return Part(solid if isinstance(solid, Solid) else merge(list(solid)), name, color, bundle or name)
-
-
-def pointer(solid: Solid, color: str = "needle") -> Part:
-    """The needle of a dial about z."""
-    return replace(piece(solid, "gauge needle", color, CASE), turns=Turning("needle"))
-
-
-def headed(parts: Sequence[Part]) -> list[Part]:
-    """What stands upright on its flange, as a head on the end of a line: z becomes x."""
-    return placed(parts, spun("y", np.pi / 2))
-
-
-def screws(count: int, radius: float, thread: float, low: float, high: float, bundle: str = "") -> Part:
-    """Hexagon bolts about z through what lies between two heights [m]."""
-    solid = bolt_circle(count, radius, thread, low, high)
-    return Part(solid, "bolt", "fastener", bundle, JOINT, True)
-
-
-# --- dials ---
-
-
-def face_of(radius: float, low: float, style: ModelingStyle, rng: np.random.Generator) -> Solid:
-    """A round dial plate, its scale raised, or bare [m]."""
-    return DialFace.draw(rng).solid(radius, low, style)
-
-
-def needle_of(radius: float, low: float, rng: np.random.Generator) -> Solid:
-    """A pointer about z: tapered, straight, with a weight or an arrow, at some reading [m]."""
-    return Needle.draw(rng).solid(radius, low)
-
-
-def dial(
-    size: float, style: ModelingStyle, rng: np.random.Generator, design: str = "", deep: float = 0.0
-) -> list[Part]:
-    """Case, face, needle and maybe glass of an instrument with a round dial; see ``Dial``."""
-    given = {**({"design": design} if design else {}), **({"deep": deep / size} if deep else {})}
-    drawn = Dial.draw(rng, given)
-    return put_down(style, lambda t: drawn.build(t, size))
-
-
-def upright(parts: Sequence[Part], size: float, top: float, turn: float = 0.0) -> list[Part]:
-    """A dial set upright on the height ``top``, centred over the z axis, turned about it."""
-    depth = float(parts[0].solid.vertices[:, 2].max())
-    return placed(parts, spun("z", turn) @ at(0, depth / 2, top + size / 2) @ UPRIGHT)
-
-
-def shank(low: float, high: float, style: ModelingStyle, rng: np.random.Generator, size: float = 0.1) -> Part:
-    """Thread, wrench flats and maybe a collar of a connection about z; see ``Shank``."""
-    drawn = Shank.draw(rng)
-    return put_down(style, lambda t: drawn.build(t, low, high, size))[0]
-
-
-def standing(
-    top: float, style: ModelingStyle, rng: np.random.Generator, design: str = "", size: float = 0.0
-) -> list[Part]:
-    """A gauge with its connection below, on what ends at the height ``top`` [m]."""
-    given = {**({"size": size} if size else {}), **({"dial.design": design} if design else {})}
-    drawn = StandingGauge.draw(rng, given)
-    return put_down(style, lambda t: drawn.build(t, top))
-
-
-# --- heads ---
-
-
-def gland(style: ModelingStyle, rng: np.random.Generator, thread: float = 0.02) -> Solid:
-    """A cable gland or plug about z from 0 up, maybe with a stub of cable [m]; see ``Gland``."""
-    return Gland.draw(rng).solid(style, thread)
-
-
-def housing(style: ModelingStyle, rng: np.random.Generator, shape: str = "") -> Solid:
-    """A transmitter's electronics on z = 0; see ``Housing``."""
-    return Housing.draw(rng, {"shape": shape} if shape else {}).solid(style)
-
-
-def indicator(wide: float, tall: float, deep: float, style: ModelingStyle, rng: np.random.Generator) -> list[Part]:
-    """A square case about z with its back on 0: bezel, face, a needle [m]."""
-    drawn = Indicator.draw(rng)
-    return put_down(style, lambda t: drawn.build(t, wide, tall, deep))
+FRONT = (0.0, 0.0, 1.0)
+"""Out of a dial about z."""
 
 
 def t_handle(reach: float, wide: float, radius: float = 0.004) -> Solid:
@@ -183,41 +46,6 @@ def bent(points: Sequence[Sequence[float]], radius: float, style: ModelingStyle)
                 cut.append(b + step / long * min(0.3 * long, 5 * radius))
         path = [*cut, path[-1]]
     return rope(np.array(path), radius, fine_sides(radius, style, 10))
-
-
-# --- what instruments are mounted on ---
-
-
-def stand(height: float, style: ModelingStyle, rng: np.random.Generator) -> list[Part]:
-    """A pipe stand about z; see ``Stand``."""
-    drawn = Stand.draw(rng)
-    return put_down(style, lambda t: drawn.build(t, height))
-
-
-def board(wide: float, low: float, high: float, style: ModelingStyle, rng: np.random.Generator) -> list[Part]:
-    """Something to mount on, its front in y = 0; see ``Board``."""
-    drawn = Board.draw(rng)
-    return put_down(style, lambda t: drawn.build(t, wide, low, high))
-
-
-def vessel(
-    low: float, high: float, dn: int, style: ModelingStyle, rng: np.random.Generator, joints: bool = True
-) -> list[Part]:
-    """A small upright vessel beside the origin; see ``Vessel``."""
-    drawn = Vessel.draw(rng)
-    return put_down(style, lambda t: drawn.build(t, low, high, dn, joints))
-
-
-def gauge_family(
-    name: str, build: Build, place: str = "tap", sizes: tuple[int, ...] = (15,), weight: float = 1.0
-) -> Family:
-    """A family of gauges."""
-    return Family(name, place, "Gauge assembly", "gauge", build, sizes, weight=weight)
-
-
-# --- on the drafting table ---
-
-FRONT = (0.0, 0.0, 1.0)
 
 
 class Gauge(Device, place="tap", group="Gauge assembly", label="gauge", bundle=CASE, sizes=(15,)):
