@@ -286,8 +286,9 @@ class Wafer(FlowMeter, name="flow meter/wafer"):
     def build(self, t: Table) -> Model:
         size, bore = t.flange, 0.95 * t.pipe.bore
         outer, length = 0.485 * (size.circle - size.bolt), round(self.long + 0.5 * t.pipe.radius, 6)
-        steps = ((outer, 0.0, 0.14), (0.88 * outer, 0.13, 0.87), (outer, 0.86, 1.0))
-        n, steps = t.n(outer), ((outer, 0.0, 1.0),) if self.plain else steps
+        steps, n = [(outer, 0.0, 1.0)], t.n(outer)
+        if not self.plain:
+            steps = [(outer, 0.0, 0.14), (0.88 * outer, 0.13, 0.87), (outer, 0.86, 1.0)]
         t.add(NAME, *(about_x(ring(bore, q, a * length, b * length, n)) for q, a, b in steps))
         self.electronics.build(t.at(length / 2), outer, size.outer / 2 - outer)
         return t.model(length, "wafer", NAME)

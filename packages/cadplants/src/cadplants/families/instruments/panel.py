@@ -50,7 +50,8 @@ class OnPanel(_Mounted, name="gauge/panel"):
     def build(self, t: Table) -> Model:
         size, pitch = self.size, 1.6 * self.size
         self.board.build(t, pitch * self.count + 0.15, self.middle - size, self.middle + size)
-        for k, head in enumerate((*self.dials, *self.squares)):
+        heads: tuple[Dial | Indicator, ...] = (*self.dials, *self.squares)
+        for k, head in enumerate(heads):
             place = t.at((k - (self.count - 1) / 2) * pitch, 0, self.middle).along("-y")
             if isinstance(head, Indicator):
                 head.build(place, size, size, 0.05)
