@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import numpy as np
 
-from cadplants.families.instruments.flow import measuring_tube, meter_family
-from cadplants.families.instruments.pieces import CASE, JOINT, bent, housing, piece, screws
+from cadplants.builder.device import families_of
+from cadplants.builder.dials import CASE, Housing
+from cadplants.builder.params import Params, among, between, chance, nested
+from cadplants.builder.table import Table, outline
+from cadplants.families.instruments.flow import NAME, FlowMeter, measuring_tube
+from cadplants.families.instruments.pieces import bent, put
 from cadplants.families.valves.threaded import hex_end
-from cadplants.families.valves.valve import disc_flange
-from cadplants.family import Family, Model, Part, Port, placed
+from cadplants.families.valves.valve import bolt_circle, disc_flange
+from cadplants.family import Model, Port
 from cadplants.mesh_ops import Solid, extrude, merge, moved
-from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import rounded_rectangle
 from cadplants.primitives import along, around, box, cylinder, hexagon, ring, turned
 from cadplants.standards import FLANGES, PIPES, SIZES
@@ -19,286 +22,255 @@ from cadplants.valve_body import bore_of
 
 __all__ = ["COUNTER_BUILDS"]
 
-_NAME = "flow meter"
+_SMALL = tuple(dn for dn in SIZES if dn <= 50)
+_CAST, _METAL = ("valve", "gauge", "pump"), "kind of material"
 
 
-def _counter(r: float, style: ModelingStyle, rng: np.random.Generator) -> list[Part]:
-    """A round register about z from 0 up: a case, a window of figures, maybe an open lid [m]."""
-    n, tall = style.round(r), float(rng.uniform(0.5, 1.1)) * r
-    case = [turned([(0.9 * r, 0.0), (r, 0.1 * tall), (r, 0.9 * tall), (0.92 * r, tall)], n)]
-    if rng.random() < 0.4:
-        lid = moved(
-            cylinder(r, 0.0, 0.06 * r, n), at(0, 0.95 * r, tall) @ spun("x", float(rng.uniform(0.8, 1.7))) @ at(0, r)
-        )
-        case += [lid, along("x", cylinder(0.06 * r, -0.3 * r, 0.3 * r, 8), 0, r, tall)]
-    face = [
-        cylinder(0.85 * r, tall - 0.0005, tall + 0.001, n),
-        box((0.8 * r, 0.2 * r, 0.002), (0, 0.3 * r, tall + 0.0015)),
-    ]
-    return [
-        piece(case, CASE, str(rng.choice(["handle", "valve", "electrical"]))),
-        piece(face, "gauge face", "dial", CASE),
-    ]
+class _Counter(Params):
+    """A round register about z from 0 up: a case, a window of figures, maybe an open lid."""
+
+    tall: float = between(0.5, 1.1, "height / radius")
+    lid: bool = chance(0.4, "an open lid")
+    lean: float = between(0.8, 1.7, "how far the lid is open", "rad", when=lambda p: p.lid)
+    metal: str = among(("handle", "valve", "electrical"), _METAL)
+
+    def build(self, t: Table, r: float) -> None:
+        """Puts it down, of a radius [m]."""
+        n, tall, t = t.n(r), self.tall * r, t.bundled(CASE)
+        case = [turned(outline(0.9 * r, 0.0, r, 0.1 * tall, r, 0.9 * tall, 0.92 * r, tall), n)]
+        if self.lid:
+            pose = at(0, 0.95 * r, tall) @ spun("x", self.lean) @ at(0, r)
+            case += [moved(cylinder(r, 0.0, 0.06 * r, n), pose)]
+            case += [along("x", cylinder(0.06 * r, -0.3 * r, 0.3 * r, 8), 0, r, tall)]
+        t.add(CASE, *case, of=self.metal)
+        figures = box((0.8 * r, 0.2 * r, 0.002), (0, 0.3 * r, tall + 0.0015))
+        t.add("gauge face", cylinder(0.85 * r, tall - 0.0005, tall + 0.001, n), figures)
 
 
-def _acrylic(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class ClearTube(FlowMeter, name="flow meter/clear tube", sizes=_SMALL):
     """A variable-area meter of clear plastic: a cone or drilled block between union nuts, a scale, a float, stops."""
-    radius = PIPES[dn].radius
-    length = round(0.16 + float(rng.uniform(5, 9)) * radius, 6)
-    r, n = 1.5 * radius + 0.004, style.round(1.5 * radius)
-    low = 0.2 * length
-    ends = [hex_end(dn, 0, 0.1 * length, style, 8), hex_end(dn, 0.9 * length, length, style, 8)]
-    nut = around(box((0.2 * r, 0.3 * r, 0.1 * length), (0, 0, 0.15 * length)), 10, 1.42 * r)
-    nut = merge([cylinder(1.45 * r, 0.09 * length, low, n), nut])
-    nuts = [along("x", nut), moved(along("x", nut), at(length) @ spun("z", np.pi))]
-    if rng.random() < 0.5:
-        clear = along("x", turned([(0.95 * r, low - 0.002), (1.25 * r, length - low + 0.002)], n))
-    else:
-        clear = along("x", extrude(rounded_rectangle(2.6 * r, 2.2 * r, 0.15 * r, 2), low - 0.002, length - low + 0.002))
-    place = float(rng.uniform(0.35, 0.65)) * length
-    bob = along("x", turned([(0.1 * r, place - 0.4 * r), (0.7 * r, place), (0.7 * r, place + 0.2 * r)], 12))
-    # A rod guides the float from end to end.
-    bob = merge([bob, along("x", cylinder(0.08 * r, 0.1 * length, 0.9 * length, 8))])
-    ticks = [box((0.002, 0.5 * r, 0.001), (x * length, 0, 1.31 * r)) for x in np.linspace(0.28, 0.72, 9)]
-    parts = [piece([*ends, *nuts], _NAME, "rubber"), piece(clear, "gauge glass", "dial", _NAME)]
-    parts += [
-        piece(bob, "gauge needle", "trim", _NAME),
-        piece([box((0.5 * length, 0.6 * r, 0.01), (length / 2, 0, 1.255 * r)), *ticks], "gauge face", "dial", _NAME),
-    ]
-    return Model(parts, length, "welded", _NAME)
+
+    long: float = between(5, 9, "its length over 0.16 m / radius of the pipe")
+    cone: bool = chance(0.5, "a cone, not a block")
+    level: float = between(0.35, 0.65, "place of its float / length")
+
+    def build(self, t: Table) -> Model:
+        radius, line = t.pipe.radius, t.along("x")
+        length, r, n = round(0.16 + self.long * radius, 6), 1.5 * radius + 0.004, t.n(1.5 * radius)
+        low, high, place = 0.2 * length, 0.8 * length, self.level * length
+        ends = [hex_end(self.dn, a * length, b * length, t.style, 8) for a, b in ((0, 0.1), (0.9, 1))]
+        grip = around(box((0.2 * r, 0.3 * r, 0.1 * length), (0, 0, 0.15 * length)), 10, 1.42 * r)
+        nut = along("x", merge([cylinder(1.45 * r, 0.09 * length, low, n), grip]))
+        t.add(NAME, *ends, nut, moved(nut, at(length) @ spun("z", np.pi)), of="rubber")
+        if self.cone:
+            clear = turned(outline(0.95 * r, low - 0.002, 1.25 * r, high + 0.002), n)
+        else:
+            clear = extrude(rounded_rectangle(2.6 * r, 2.2 * r, 0.15 * r, 2), low - 0.002, high + 0.002)
+        line.add("gauge glass", clear)
+        # A rod guides the float from end to end.
+        bob = turned(outline(0.1 * r, place - 0.4 * r, 0.7 * r, place, 0.7 * r, place + 0.2 * r), 12)
+        line.add("gauge needle", bob, cylinder(0.08 * r, 0.1 * length, 0.9 * length, 8), of="trim")
+        ticks = [box((0.002, 0.5 * r, 0.001), (x * length, 0, 1.31 * r)) for x in np.linspace(0.28, 0.72, 9)]
+        t.add("gauge face", box((0.5 * length, 0.6 * r, 0.01), (length / 2, 0, 1.255 * r)), *ticks)
+        return t.model(length, "welded", NAME)
 
 
-def _paddle(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class PaddleWheel(FlowMeter, name="flow meter/paddle wheel", sizes=_SMALL):
     """A paddle-wheel sensor in a plastic tee or on a saddle: a union nut on a neck, a body, a display or plug."""
-    radius = PIPES[dn].radius
-    length, n = round(0.09 + 4.2 * radius, 6), style.round(radius)
-    r, rise = 0.014 + 0.25 * radius, 1.3 * radius + float(rng.uniform(0.03, 0.06))
-    ends = [
-        ring(bore_of(dn, style), 1.3 * radius, 0.0, 0.28 * length, n),
-        ring(bore_of(dn, style), 1.15 * radius, 0.25 * length, 0.75 * length, n),
-        ring(bore_of(dn, style), 1.3 * radius, 0.72 * length, length, n),
-    ]
-    neck = moved(cylinder(1.1 * r, 0.5 * radius, rise, 16), at(length / 2))
-    nut = merge(
-        [
-            cylinder(1.7 * r, rise - 0.018, rise + 0.006, 18),
-            around(box((0.15 * r, 0.3 * r, 0.022), (0, 0, rise - 0.006)), 10, 1.7 * r),
-        ]
-    )
-    parts = [
-        piece([*(along("x", e) for e in ends), neck], _NAME, "electrical"),
-        piece(moved(nut, at(length / 2)), _NAME, "rubber"),
-    ]
-    top = rise + float(rng.uniform(0.03, 0.09))
-    body: list[Solid] = [cylinder(0.95 * r, rise, top, 16)]
-    if rng.random() < 0.5:
-        body.append(moved(housing(style, rng, str(rng.choice(["slant", "rectangle", "pot"]))), at(0, 0, top - 0.003)))
-    else:
-        body.append(
-            bent([(0, 0, top - 0.002), (0, 0, top + 0.06), (0.04, 0, top + 0.1), (0.14, 0, top + 0.02)], 0.0035, style)
-        )
-    return Model([*parts, piece(moved(merge(body), at(length / 2)), "transmitter", "safety")], length, "welded", _NAME)
+
+    neck: float = between(0.03, 0.06, "height of the neck over 1.3 radii of the pipe", "m")
+    tall: float = between(0.03, 0.09, "height of the body over the neck", "m")
+    headed: bool = chance(0.5, "electronics on it, not a cable")
+    shape: str = among(("slant", "rectangle", "pot"), "how they are made", when=lambda p: p.headed, otherwise="")
+    housing: Housing = nested(lambda s, p: Housing.draw(s, {"shape": p.shape}), "electronics", when=lambda p: p.headed)
+
+    def build(self, t: Table) -> Model:
+        radius, bore = t.pipe.radius, bore_of(self.dn, t.style)
+        length, n = round(0.09 + 4.2 * radius, 6), t.n(radius)
+        r, rise, middle = 0.014 + 0.25 * radius, 1.3 * radius + self.neck, t.at(length / 2)
+        top = rise + self.tall
+        steps = ((1.3, 0.0, 0.28), (1.15, 0.25, 0.75), (1.3, 0.72, 1.0))
+        ends = [along("x", ring(bore, q * radius, a * length, b * length, n), -length / 2) for q, a, b in steps]
+        middle.add(NAME, *ends, cylinder(1.1 * r, 0.5 * radius, rise, 16), of="electrical")
+        grip = around(box((0.15 * r, 0.3 * r, 0.022), (0, 0, rise - 0.006)), 10, 1.7 * r)
+        middle.add(NAME, cylinder(1.7 * r, rise - 0.018, rise + 0.006, 18), grip, of="rubber")
+        if self.headed:
+            head = moved(self.housing.solid(t.style), at(0, 0, top - 0.003))
+        else:
+            way = [(0, 0, top - 0.002), (0, 0, top + 0.06), (0.04, 0, top + 0.1), (0.14, 0, top + 0.02)]
+            head = bent(way, 0.0035, t.style)
+        put(middle, "transmitter", cylinder(0.95 * r, rise, top, 16), head, of="safety")
+        return t.model(length, "welded", NAME)
 
 
-def _woltman(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class Woltman(FlowMeter, name="flow meter/woltman", sizes=tuple(dn for dn in SIZES if dn >= 40)):
     """A Woltman water meter (EN ISO 4064): a cast body with a bolted insert and its register."""
-    radius = PIPES[dn].radius
-    length = round(0.2 + float(rng.uniform(0.8, 1.6)) * PIPES[dn].outer, 6)
-    neck = 0.485 * FLANGES[dn].hub
-    body = measuring_tube(
-        dn,
-        style,
-        length,
-        [(neck, 0.3 * length), (1.08 * neck, 0.4 * length), (1.08 * neck, 0.6 * length), (neck, 0.7 * length)],
-    )
-    r, top = 0.045 + 0.5 * radius, 1.2 * neck + 0.015
-    n = style.round(r)
-    dome_ = [
-        cylinder(0.85 * r, 0.3 * radius, top, n),
-        cylinder(1.25 * r, top - 0.012, top, n),
-        cylinder(1.25 * r, top + 0.001, top + 0.012, n),
-    ]
-    parts = [piece([body, moved(merge(dome_[:2]), at(length / 2))], _NAME, str(rng.choice(["valve", "gauge", "pump"])))]
-    parts.append(piece(moved(dome_[2], at(length / 2)), _NAME, "valve"))
-    parts += placed(
-        [screws(int(rng.choice([4, 6, 8])), 1.1 * r, 0.01, top - 0.012, top + 0.012, _NAME)], at(length / 2)
-    )
-    return Model([*parts, *placed(_counter(0.8 * r, style, rng), at(length / 2, 0, top + 0.012))], length, kind=_NAME)
+
+    long: float = between(0.8, 1.6, "its length over 0.2 m / diameter of the pipe")
+    metal: str = among(_CAST, _METAL)
+    bolts: int = among((4, 6, 8), "of the insert")
+    counter: _Counter = nested(_Counter, "register")
+
+    def build(self, t: Table) -> Model:
+        radius, neck = t.pipe.radius, 0.485 * t.flange.hub
+        length = round(0.2 + self.long * t.pipe.outer, 6)
+        wide, r, top = 1.08 * neck, 0.045 + 0.5 * radius, 1.2 * neck + 0.015
+        middle = outline(neck, 0.3 * length, wide, 0.4 * length, wide, 0.6 * length, neck, 0.7 * length)
+        n, up = t.n(r), t.at(length / 2)
+        chest = merge([cylinder(0.85 * r, 0.3 * radius, top, n), cylinder(1.25 * r, top - 0.012, top, n)])
+        body = measuring_tube(self.dn, t.style, length, middle)
+        t.add(NAME, body, moved(chest, at(length / 2)), of=self.metal)
+        up.add(NAME, cylinder(1.25 * r, top + 0.001, top + 0.012, n), of="valve")
+        up.add("bolt", bolt_circle(self.bolts, 1.1 * r, 0.01, top - 0.012, top + 0.012))
+        self.counter.build(up.at(0, 0, top + 0.012), 0.8 * r)
+        return t.model(length, kind=NAME)
 
 
-def _displacement(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class Displacement(FlowMeter, name="flow meter/displacement", sizes=tuple(dn for dn in SIZES if dn <= 150)):
     """A displacement meter (piston, vane, oval gear): a round or oval chamber with bolted covers, a counter on it."""
-    radius = PIPES[dn].radius
-    length = round(0.16 + 4.0 * radius, 6)
-    r, half, x = 0.05 + 1.4 * radius, 0.03 + 1.1 * radius, length / 2
-    n, upright = style.round(r), bool(rng.random() < 0.5)
-    axis = "z" if upright else "-y"
-    squash = 1.0 if rng.random() < 0.5 else 0.75
-    drum = [
-        turned([(0.9 * r, -half), (r, -0.9 * half), (r, 0.9 * half), (0.9 * r, half)], n),
-        cylinder(1.12 * r, half - 0.014, half + 0.012, n),
-    ]
-    oval = np.diag([1.0, squash, 1.0, 1.0])
-    chamber = along(axis, moved(merge(drum), oval), x)
-    bolts = along(
-        axis, moved(screws(int(rng.choice([6, 8, 10])), 1.05 * r, 0.01, half - 0.014, half + 0.012).solid, oval), x
-    )
-    parts = [piece([measuring_tube(dn, style, length), chamber], _NAME, str(rng.choice(["valve", "gauge", "pump"])))]
-    parts.append(Part(bolts, "bolt", "fastener", _NAME, JOINT, True))
-    neck = cylinder(0.3 * r, half, half + 0.03, 14)
-    if rng.random() < 0.5:  # a tall counter with figure windows, a reset knob and a ticket printer
-        wide, tall = 0.14 + 0.3 * radius, float(rng.uniform(0.1, 0.16))
+
+    upright: bool = chance(0.5, "its chamber stands upright")
+    disc: bool = chance(0.5, "its chamber is round, not oval")
+    bolts: int = among((6, 8, 10), "of the cover")
+    metal: str = among(_CAST, _METAL)
+    printer: bool = chance(0.5, "a tall counter with a reset knob and a ticket printer")
+    tall: float = between(0.1, 0.16, "height of that counter", "m", when=lambda p: p.printer)
+    counter: _Counter = nested(_Counter, "register", when=lambda p: not p.printer)
+
+    def build(self, t: Table) -> Model:
+        radius, axis = t.pipe.radius, "z" if self.upright else "-y"
+        length, r, half = round(0.16 + 4.0 * radius, 6), 0.05 + 1.4 * radius, 0.03 + 1.1 * radius
+        n, line, oval = t.n(r), t.at(length / 2).along(axis), np.diag([1.0, 1.0 if self.disc else 0.75, 1.0, 1.0])
+        drum = turned(outline(0.9 * r, -half, r, -0.9 * half, r, 0.9 * half, 0.9 * r, half), n)
+        chamber = merge([drum, cylinder(1.12 * r, half - 0.014, half + 0.012, n)])
+        body = measuring_tube(self.dn, t.style, length)
+        t.add(NAME, body, along(axis, moved(chamber, oval), length / 2), of=self.metal)
+        line.add("bolt", moved(bolt_circle(self.bolts, 1.05 * r, 0.01, half - 0.014, half + 0.012), oval))
+        line.add(NAME, cylinder(0.3 * r, half, half + 0.03, 14))
+        top = line.at(0, 0, half + 0.029)
+        if self.printer:
+            self._printer(top.bundled(CASE), 0.14 + 0.3 * radius)
+        else:
+            self.counter.build(top, 0.6 * r)
+        return t.model(length, kind=NAME)
+
+    def _printer(self, t: Table, wide: float) -> None:
+        tall = self.tall
         crate = extrude(rounded_rectangle(wide, 0.8 * wide, 0.1 * wide, 3), 0.0, tall)
         knob = along("x", cylinder(0.018, 0.0, 0.04, 12), 0.49 * wide, 0, 0.5 * tall)
+        t.add(CASE, crate, knob, of="valve")
         panes = box((0.7 * wide, 0.004, 0.3 * tall), (0, -0.4 * wide - 0.002, 0.65 * tall))
-        if not upright:
+        if not self.upright:
             panes = box((0.7 * wide, 0.25 * wide, 0.004), (0, 0.1 * wide, tall + 0.002))
-        counter = [piece([crate, knob], CASE, "valve"), piece(panes, "gauge face", "dial", CASE)]
-    else:
-        counter = _counter(0.6 * r, style, rng)
-    head = [piece(neck, _NAME, "gauge"), *placed(counter, at(0, 0, half + 0.029))]
-    parts += [Part(along(axis, p.solid, x), p.name, p.color, p.bundle, p.group, p.fine) for p in head]
-    return Model(parts, length, kind=_NAME)
+        t.add("gauge face", panes)
 
 
-def _rotary(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class RotaryGas(FlowMeter, name="flow meter/rotary gas", sizes=tuple(dn for dn in SIZES if 25 <= dn <= 150)):
     """A rotary gas meter (EN 12480): a ribbed body of two lobes across the line, gear covers, a counter at one end."""
-    radius = PIPES[dn].radius
-    length = round(0.15 + 2.2 * radius, 6)
-    r, half, x = 0.04 + 0.9 * radius, 0.07 + 1.4 * radius, length / 2
-    n = style.round(r)
-    lobes = [moved(cylinder(r, -half, half, n), at(0, s * 0.55 * r)) for s in (-1, 1)]
-    ribs = [
-        moved(cylinder(1.08 * r, z - 0.003, z + 0.003, n), at(0, s * 0.55 * r))
-        for s in (-1, 1)
-        for z in np.linspace(-0.8, 0.8, 5) * half
-    ]
-    ends = [
-        extrude(rounded_rectangle(1.9 * r, 3.0 * r, 0.9 * r, 5), z, z + 0.03) for z in (-half - 0.029, half - 0.001)
-    ]
-    core = along("-y", merge([*lobes, *(ribs if rng.random() < 0.6 else []), *ends]), x)
-    plates = [
-        along("x", disc_flange(dn, style, 0.5 * length, bore_of(dn, style))),
-        moved(along("-x", disc_flange(dn, style, 0.5 * length, bore_of(dn, style))), at(length)),
-    ]
-    parts = [piece([*plates, core], _NAME, "gauge")]
-    counter = [
-        piece(cylinder(0.4 * r, half + 0.028, half + 0.05, 14), _NAME, "gauge"),
-        *placed(_counter(0.6 * r, style, rng), at(0, 0, half + 0.049)),
-    ]
-    return Model(
-        [*parts, *(Part(along("-y", p.solid, x), p.name, p.color, p.bundle, p.group, p.fine) for p in counter)],
-        length,
-        kind=_NAME,
-    )
+
+    ribbed: bool = chance(0.6, "ribs round its lobes")
+    counter: _Counter = nested(_Counter, "register")
+
+    def build(self, t: Table) -> Model:
+        radius = t.pipe.radius
+        length, r, half = round(0.15 + 2.2 * radius, 6), 0.04 + 0.9 * radius, 0.07 + 1.4 * radius
+        n, head = t.n(r), t.at(length / 2).along("-y")
+        solids = [moved(cylinder(r, -half, half, n), at(0, s * 0.55 * r)) for s in (-1, 1)]
+        if self.ribbed:
+            heights = np.linspace(-0.8, 0.8, 5) * half
+            ribs = merge([cylinder(1.08 * r, z - 0.003, z + 0.003, n) for z in heights])
+            solids += [moved(ribs, at(0, s * 0.55 * r)) for s in (-1, 1)]
+        cover = rounded_rectangle(1.9 * r, 3.0 * r, 0.9 * r, 5)
+        solids += [extrude(cover, z, z + 0.03) for z in (-half - 0.029, half - 0.001)]
+        plate = disc_flange(self.dn, t.style, 0.5 * length, bore_of(self.dn, t.style))
+        plates = along("x", plate), along("-x", plate, length)
+        t.add(NAME, *plates, along("-y", merge(solids), length / 2))
+        head.add(NAME, cylinder(0.4 * r, half + 0.028, half + 0.05, 14))
+        self.counter.build(head.at(0, 0, half + 0.049), 0.6 * r)
+        return t.model(length, kind=NAME)
 
 
-def _diaphragm(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class DiaphragmGas(FlowMeter, name="flow meter/diaphragm gas", place="floor", sizes=(15,)):
     """A diaphragm gas meter (EN 1359): a two-part sheet case on a stand with two connections on its top, a counter."""
-    wide, deep, tall = float(rng.uniform(0.22, 0.4)), float(rng.uniform(0.16, 0.28)), float(rng.uniform(0.22, 0.38))
-    dn, low = int(rng.choice([25, 32, 40, 50])), float(rng.uniform(0.5, 1.1))
-    r = 0.2 * deep
-    lower = extrude(rounded_rectangle(wide, deep, r, 4), low, low + 0.62 * tall)
-    upper = extrude(rounded_rectangle(0.97 * wide, 0.95 * deep, r, 4), low + 0.62 * tall, low + tall)
-    seam = extrude(rounded_rectangle(1.05 * wide, 1.07 * deep, 1.05 * r, 4), low + 0.61 * tall, low + 0.63 * tall)
-    z = low + tall
-    parts, ports, apart = (
-        [piece([lower, upper, seam], _NAME, "electrical")],
-        [],
-        max(0.3 * wide, 0.5 * FLANGES[dn].outer + 0.008),
-    )
-    for s in (-1, 1):
-        stub = merge(
-            [
-                cylinder(1.2 * PIPES[dn].radius, z - 0.01, z + 0.05, 16),
-                hexagon(3.0 * PIPES[dn].radius, z + 0.01, z + 0.035),
-            ]
-        )
-        end = moved(moved(disc_flange(dn, style, 0.07), spun("x", np.pi)), at(0, 0, z + 0.11))
-        ports.append(Port(looking((s * apart, 0, z + 0.11), (0, 0, 1)), dn, len(parts)))
-        parts.append(piece(moved(merge([stub, end]), at(s * apart)), _NAME, "trim"))
-    view = box((0.35 * wide, 0.03, 0.16 * tall), (0, -0.47 * deep - 0.01, low + 0.82 * tall))
-    figures = box((0.28 * wide, 0.002, 0.06 * tall), (0, -0.47 * deep - 0.026, low + 0.82 * tall))
-    parts += [piece(view, CASE, "rubber"), piece(figures, "gauge face", "dial", CASE)]
-    shelf = box((1.1 * wide, 1.1 * deep, 0.005), (0, 0, low - 0.0025))
-    legs = [
-        box((0.03, 0.03, low - 0.005), (x * wide, y * deep, (low - 0.005) / 2))
-        for x in (-0.5, 0.5)
-        for y in (-0.48, 0.48)
-    ]
-    parts.append(Part(shelf, "plate", "steel", "", "Structural element"))
-    parts += [Part(leg, "post", "steel", "", "Structural element") for leg in legs]
-    return Model(parts, kind=_NAME, ports=tuple(ports))
+
+    wide: float = between(0.22, 0.4, "width of its case", "m")
+    deep: float = between(0.16, 0.28, "depth of its case", "m")
+    tall: float = between(0.22, 0.38, "height of its case", "m")
+    mouth: int = among((25, 32, 40, 50), "nominal size of its connections", "mm")
+    low: float = between(0.5, 1.1, "height of its stand", "m")
+
+    def build(self, t: Table) -> Model:
+        wide, deep, tall, low = self.wide, self.deep, self.tall, self.low
+        r, z, pipe = 0.2 * deep, low + tall, PIPES[self.mouth].radius
+        case = [
+            extrude(rounded_rectangle(a * wide, b * deep, c * r, 4), low + d * tall, low + e * tall)
+            for a, b, c, d, e in ((1, 1, 1, 0, 0.62), (0.97, 0.95, 1, 0.62, 1), (1.05, 1.07, 1.05, 0.61, 0.63))
+        ]
+        t.add(NAME, *case, of="electrical")
+        apart, ports = max(0.3 * wide, 0.5 * FLANGES[self.mouth].outer + 0.008), []
+        for x in (-apart, apart):
+            ports.append(Port(looking((x, 0, z + 0.11), (0, 0, 1)), self.mouth, len(t.parts)))
+            stub = [cylinder(1.2 * pipe, z - 0.01, z + 0.05, 16), hexagon(3.0 * pipe, z + 0.01, z + 0.035)]
+            t.at(x).add(NAME, *stub, along("-z", disc_flange(self.mouth, t.style, 0.07), 0, 0, z + 0.11), of="trim")
+        y, high, case_ = -0.47 * deep, low + 0.82 * tall, t.bundled(CASE)
+        case_.add(CASE, box((0.35 * wide, 0.03, 0.16 * tall), (0, y - 0.01, high)), of="rubber")
+        case_.add("gauge face", box((0.28 * wide, 0.002, 0.06 * tall), (0, y - 0.026, high)))
+        t.add("plate", box((1.1 * wide, 1.1 * deep, 0.005), (0, 0, low - 0.0025)))
+        leg = low - 0.005
+        for x in (-0.5, 0.5):
+            for y in (-0.48, 0.48):
+                t.add("post", box((0.03, 0.03, leg), (x * wide, y * deep, leg / 2)))
+        return t.model(kind=NAME, ports=ports)
 
 
-def _heat(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class HeatMeter(FlowMeter, name="flow meter/heat", sizes=_SMALL):
     """A heat meter (EN 1434): a small brass body with union ends, its calculator on top or aslant, sensor cables."""
-    radius = PIPES[dn].radius
-    length, x = round(0.1 + 2.2 * radius, 6), 0.05 + 1.1 * radius
-    body = [
-        hex_end(dn, 0, 0.16 * length, style),
-        hex_end(dn, 0.84 * length, length, style),
-        along("x", cylinder(0.95 * radius, 0.1 * length, 0.9 * length, style.round(radius))),
-    ]
-    z = 0.8 * radius + 0.02
-    body.append(moved(box((0.04, 0.03, z), (0, 0, z / 2)), at(x)))
-    wide, deep, tall = (float(rng.uniform(a, b)) for a, b in ((0.075, 0.12), (0.05, 0.09), (0.03, 0.05)))
-    lean = at(x, 0, z + 0.01) @ spun("x", float(rng.choice([0.0, 0.6]))) @ at(0, 0, -0.012)
-    case = extrude(rounded_rectangle(wide, deep, 0.2 * deep, 4), 0.0, tall)
-    view = box((0.6 * wide, 0.35 * deep, 0.002), (0, 0.12 * deep, tall + 0.001))
-    key = cylinder(0.006, tall - 0.001, tall + 0.003, 10)
-    leads = [
-        bent(
-            [
-                (s * 0.25 * wide, -0.45 * deep, 0.3 * tall),
-                (s * 0.25 * wide, -0.8 * deep, 0.3 * tall),
-                (s * 0.8 * wide, -0.9 * deep, -0.02),
-            ],
-            0.002,
-            style,
-        )
-        for s in (-1, 1)
-    ]
-    head = [
-        piece([case, moved(key, at(0, -0.25 * deep)), *leads], "transmitter", "electrical"),
-        piece(view, "gauge glass", "dial", "transmitter"),
-    ]
-    return Model([piece(body, _NAME, "trim"), *placed(head, lean)], length, "welded", _NAME)
+
+    wide: float = between(0.075, 0.12, "width of the calculator", "m")
+    deep: float = between(0.05, 0.09, "depth of the calculator", "m")
+    tall: float = between(0.03, 0.05, "height of the calculator", "m")
+    lean: float = among((0.0, 0.6), "of the calculator", "rad")
+
+    def build(self, t: Table) -> Model:
+        radius, wide, deep, tall = t.pipe.radius, self.wide, self.deep, self.tall
+        length, x, z = round(0.1 + 2.2 * radius, 6), 0.05 + 1.1 * radius, 0.8 * radius + 0.02
+        ends = [hex_end(self.dn, a * length, b * length, t.style) for a, b in ((0, 0.16), (0.84, 1))]
+        tube = along("x", cylinder(0.95 * radius, 0.1 * length, 0.9 * length, t.n(radius)))
+        t.add(NAME, *ends, tube, box((0.04, 0.03, z), (x, 0, z / 2)), of="trim")
+        head = t.bundled("transmitter").at(x, 0, z + 0.01).spun("x", self.lean).at(0, 0, -0.012)
+        solids = [extrude(rounded_rectangle(wide, deep, 0.2 * deep, 4), 0.0, tall)]
+        solids.append(moved(cylinder(0.006, tall - 0.001, tall + 0.003, 10), at(0, -0.25 * deep)))
+        for s in (-1, 1):
+            near = [(s * 0.25 * wide, y * deep, 0.3 * tall) for y in (-0.45, -0.8)]
+            solids.append(bent([*near, (s * 0.8 * wide, -0.9 * deep, -0.02)], 0.002, t.style))
+        head.add("transmitter", *solids, of="electrical")
+        head.add("gauge glass", box((0.6 * wide, 0.35 * deep, 0.002), (0, 0.12 * deep, tall + 0.001)))
+        return t.model(length, "welded", NAME)
 
 
-def _pickup(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class PickUp(FlowMeter, name="flow meter/pick-up"):
     """A turbine meter for liquids: a slim tube with a pick-up boss and hexagon, a plug, a small display or a head."""
-    radius = PIPES[dn].radius
-    length = round(0.1 + float(rng.uniform(2.0, 3.5)) * PIPES[dn].outer, 6)
-    parts = [piece(measuring_tube(dn, style, length), _NAME, "gauge")]
-    x, top = float(rng.uniform(0.45, 0.55)) * length, radius + float(rng.uniform(0.03, 0.07))
-    boss = [
-        cylinder(0.016, 0.7 * radius, radius + 0.015, 14),
-        hexagon(0.026, radius + 0.012, top),
-        cylinder(0.01, top - 0.002, top + 0.02, 12),
-    ]
-    parts.append(piece(moved(merge(boss), at(x)), _NAME, "trim"))
-    if rng.random() < 0.5:
-        head: Solid = moved(housing(style, rng), at(0, 0, top + 0.017))
-    else:
-        head = merge(
-            [
-                cylinder(0.013, top + 0.012, top + 0.05, 12),
-                bent([(0, 0, top + 0.048), (0, 0, top + 0.09), (0.1, 0, top + 0.1), (0.16, 0, top)], 0.004, style),
-            ]
-        )
-    return Model([*parts, piece(moved(head, at(x)), "transmitter", "rubber")], length, kind=_NAME)
+
+    long: float = between(2.0, 3.5, "its length over 0.1 m / diameter of the pipe")
+    spot: float = between(0.45, 0.55, "where the pick-up is / length")
+    rise: float = between(0.03, 0.07, "height of the pick-up over the tube", "m")
+    headed: bool = chance(0.5, "electronics on it, not a cable")
+    housing: Housing = nested(Housing, "electronics", when=lambda p: p.headed)
+
+    def build(self, t: Table) -> Model:
+        radius = t.pipe.radius
+        length, top = round(0.1 + self.long * t.pipe.outer, 6), radius + self.rise
+        t.add(NAME, measuring_tube(self.dn, t.style, length))
+        t = t.at(self.spot * length)
+        boss = [cylinder(0.016, 0.7 * radius, radius + 0.015, 14), hexagon(0.026, radius + 0.012, top)]
+        t.add(NAME, *boss, cylinder(0.01, top - 0.002, top + 0.02, 12), of="trim")
+        if self.headed:
+            head: list[Solid] = [moved(self.housing.solid(t.style), at(0, 0, top + 0.017))]
+        else:
+            way = [(0, 0, top + 0.048), (0, 0, top + 0.09), (0.1, 0, top + 0.1), (0.16, 0, top)]
+            head = [cylinder(0.013, top + 0.012, top + 0.05, 12), bent(way, 0.004, t.style)]
+        put(t, "transmitter", *head, of="rubber")
+        return t.model(length, kind=NAME)
 
 
-_SMALL = tuple(dn for dn in SIZES if dn <= 50)
-_SOME = tuple(dn for dn in SIZES if dn <= 150)
-COUNTER_BUILDS: tuple[Family, ...] = (
-    meter_family("flow meter/clear tube", _acrylic, sizes=_SMALL),
-    meter_family("flow meter/paddle wheel", _paddle, sizes=_SMALL),
-    meter_family("flow meter/woltman", _woltman, sizes=tuple(dn for dn in SIZES if dn >= 40)),
-    meter_family("flow meter/displacement", _displacement, sizes=_SOME),
-    meter_family("flow meter/rotary gas", _rotary, sizes=tuple(dn for dn in _SOME if dn >= 25)),
-    meter_family("flow meter/diaphragm gas", _diaphragm, "floor", (15,)),
-    meter_family("flow meter/heat", _heat, sizes=_SMALL),
-    meter_family("flow meter/pick-up", _pickup),
-)
+COUNTER_BUILDS = families_of(ClearTube, PaddleWheel, Woltman, Displacement, RotaryGas, DiaphragmGas, HeatMeter, PickUp)

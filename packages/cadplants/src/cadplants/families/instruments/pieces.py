@@ -1,160 +1,30 @@
-"""What instruments are put together from: dials, shanks, housings, boxes, and posts, boards and vessels to hold them.
-
-Devices stand on z = 0 about the z axis unless a function says otherwise; their fronts look to -y.
-"""
+"""What instruments are put together from, besides dials and heads: tubes, handles, and stands, boards and vessels."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 import numpy as np
 
-from cadgraph.model.scene import Floats
+from cadplants.builder.device import Device
 from cadplants.builder.dials import (
     CASE,
-    CASES,
-    STEM,
-    Dial,
-    DialFace,
-    Gland,
-    Housing,
-    Indicator,
-    Needle,
-    Shank,
-    StandingGauge,
-    case_of,
     fine_sides,
-    put_down,
 )  # fmt: skip
+from cadplants.builder.params import Params, among, between, chance
+from cadplants.builder.table import Table, outline
 from cadplants.families.valves.valve import bolt_circle, disc_flange
-from cadplants.family import Build, Family, Part, placed
 from cadplants.flange import plate_thickness
-from cadplants.mesh_ops import Solid, extrude, merge, moved
+from cadplants.mesh_ops import Solid, extrude, merge
 from cadplants.modeling_style import ModelingStyle
-from cadplants.plant import Turning
-from cadplants.polygon import circle, rounded_rectangle
-from cadplants.primitives import along, box, cylinder, dome, hexagon, ring, rod, rope, turned
+from cadplants.polygon import rounded_rectangle
+from cadplants.primitives import box, cylinder, dome, hexagon, ring, rod, rope, turned
 from cadplants.standards import FLANGES, PIPES
-from cadplants.transforms import at, spun
 
-__all__ = [
-    "CASE",
-    "FRAME",
-    "JOINT",
-    "STEM",
-    "STYLES",
-    "TANK",
-    "bent",
-    "board",
-    "bolted",
-    "case_of",
-    "dial",
-    "face_of",
-    "fine_sides",
-    "gauge_family",
-    "gland",
-    "headed",
-    "housing",
-    "indicator",
-    "needle_of",
-    "piece",
-    "pointer",
-    "screws",
-    "shank",
-    "stand",
-    "standing",
-    "t_handle",
-    "upright",
-    "vessel",
-]
+__all__ = ["FRONT", "Board", "Gauge", "Stand", "Vessel", "bent", "put", "t_handle"]
 
-FRAME, JOINT, TANK = "Structural element", "Connection assembly", "Tank"
-STYLES = CASES
-UPRIGHT = spun("x", np.pi / 2)  # what looks to +z then looks to -y, its y axis up
-
-
-def piece(solid: Solid | Sequence[Solid], name: str, color: str, bundle: str = "") -> Part:
-    """A part of a gauge, of the bundle that its name says by default."""
-    return Part(solid if isinstance(solid, Solid) else merge(list(solid)), name, color, bundle or name)
-
-
-def pointer(solid: Solid, color: str = "needle") -> Part:
-    """The needle of a dial about z."""
-    return replace(piece(solid, "gauge needle", color, CASE), turns=Turning("needle"))
-
-
-def headed(parts: Sequence[Part]) -> list[Part]:
-    """What stands upright on its flange, as a head on the end of a line: z becomes x."""
-    return placed(parts, spun("y", np.pi / 2))
-
-
-def screws(count: int, radius: float, thread: float, low: float, high: float, bundle: str = "") -> Part:
-    """Hexagon bolts about z through what lies between two heights [m]."""
-    solid = bolt_circle(count, radius, thread, low, high)
-    return Part(solid, "bolt", "fastener", bundle, JOINT, True)
-
-
-# --- dials ---
-
-
-def face_of(radius: float, low: float, style: ModelingStyle, rng: np.random.Generator) -> Solid:
-    """A round dial plate, its scale raised, or bare [m]."""
-    return DialFace.draw(rng).solid(radius, low, style)
-
-
-def needle_of(radius: float, low: float, rng: np.random.Generator) -> Solid:
-    """A pointer about z: tapered, straight, with a weight or an arrow, at some reading [m]."""
-    return Needle.draw(rng).solid(radius, low)
-
-
-def dial(
-    size: float, style: ModelingStyle, rng: np.random.Generator, design: str = "", deep: float = 0.0
-) -> list[Part]:
-    """Case, face, needle and maybe glass of an instrument with a round dial; see ``Dial``."""
-    given = {**({"design": design} if design else {}), **({"deep": deep / size} if deep else {})}
-    drawn = Dial.draw(rng, given)
-    return put_down(style, lambda t: drawn.build(t, size))
-
-
-def upright(parts: Sequence[Part], size: float, top: float, turn: float = 0.0) -> list[Part]:
-    """A dial set upright on the height ``top``, centred over the z axis, turned about it."""
-    depth = float(parts[0].solid.vertices[:, 2].max())
-    return placed(parts, spun("z", turn) @ at(0, depth / 2, top + size / 2) @ UPRIGHT)
-
-
-def shank(low: float, high: float, style: ModelingStyle, rng: np.random.Generator, size: float = 0.1) -> Part:
-    """Thread, wrench flats and maybe a collar of a connection about z; see ``Shank``."""
-    drawn = Shank.draw(rng)
-    return put_down(style, lambda t: drawn.build(t, low, high, size))[0]
-
-
-def standing(
-    top: float, style: ModelingStyle, rng: np.random.Generator, design: str = "", size: float = 0.0
-) -> list[Part]:
-    """A gauge with its connection below, on what ends at the height ``top`` [m]."""
-    given = {**({"size": size} if size else {}), **({"dial.design": design} if design else {})}
-    drawn = StandingGauge.draw(rng, given)
-    return put_down(style, lambda t: drawn.build(t, top))
-
-
-# --- heads ---
-
-
-def gland(style: ModelingStyle, rng: np.random.Generator, thread: float = 0.02) -> Solid:
-    """A cable gland or plug about z from 0 up, maybe with a stub of cable [m]; see ``Gland``."""
-    return Gland.draw(rng).solid(style, thread)
-
-
-def housing(style: ModelingStyle, rng: np.random.Generator, shape: str = "") -> Solid:
-    """A transmitter's electronics on z = 0; see ``Housing``."""
-    return Housing.draw(rng, {"shape": shape} if shape else {}).solid(style)
-
-
-def indicator(wide: float, tall: float, deep: float, style: ModelingStyle, rng: np.random.Generator) -> list[Part]:
-    """A square case about z with its back on 0: bezel, face, a needle [m]."""
-    drawn = Indicator.draw(rng)
-    return put_down(style, lambda t: drawn.build(t, wide, tall, deep))
+FRONT = (0.0, 0.0, 1.0)
+"""Out of a dial about z."""
 
 
 def t_handle(reach: float, wide: float, radius: float = 0.004) -> Solid:
@@ -178,94 +48,91 @@ def bent(points: Sequence[Sequence[float]], radius: float, style: ModelingStyle)
     return rope(np.array(path), radius, fine_sides(radius, style, 10))
 
 
-# --- what instruments are mounted on ---
+class Gauge(Device, place="tap", group="Gauge assembly", label="gauge", bundle=CASE, sizes=(15,)):
+    """A gauge."""
 
 
-def stand(height: float, style: ModelingStyle, rng: np.random.Generator, radius: float = 0.0302) -> list[Part]:
-    """A pipe stand about z (two inches by default) on a base plate [m]."""
-    side = float(rng.uniform(0.15, 0.3))
-    base = box((side, side, 0.01), (0, 0, 0.005))
-    n = style.round(radius)
-    if rng.random() < 0.3:
-        base = cylinder(side / 2, 0.0, 0.01, style.round(side / 2))
-    post = turned([(radius, 0.01), (radius, height - 0.004), (0.8 * radius, height)], n)
-    return [Part(post, "post", "steel", "", FRAME), Part(base, "base plate", "steel", "", FRAME)]
+def put(t: Table, name: str, *solids: Solid, of: str = "") -> None:
+    """Puts solids down as one part of the bundle that its name says."""
+    t.bundled(name).add(name, *solids, of=of)
 
 
-def board(wide: float, low: float, high: float, style: ModelingStyle, rng: np.random.Generator) -> list[Part]:
-    """Something to mount on, its front in y = 0 looking to -y: a wall, or a panel on posts [m]."""
-    if rng.random() < 0.4:
-        deep = float(rng.uniform(0.08, 0.2))
-        tall = high + float(rng.uniform(0.1, 0.6))
-        return [Part(box((wide + 0.4, deep, tall), (0, deep / 2, tall / 2)), "wall", "concrete", "", FRAME)]
-    thick, w = float(rng.choice([0.003, 0.006, 0.012])), float(rng.choice([0.04, 0.05, 0.06]))
-    sheet = box((wide, thick, high - low), (0, thick / 2, (low + high) / 2))
-    parts = [Part(sheet, "plate", "electrical", "", FRAME)]
-    places = (0.0,) if wide < 0.25 else (-wide / 2 + w, wide / 2 - w)
-    for x in places:
-        post = extrude(rounded_rectangle(w, w, 0.1 * w, 2), 0.01, high)
-        parts.append(Part(moved(post, at(x, thick + w / 2)), "post", "steel", "", FRAME))
-        foot = box((2.5 * w, 2.5 * w, 0.01), (x, thick + w / 2, 0.005))
-        parts.append(Part(foot, "base plate", "steel", "", FRAME))
-    return parts
+class Stand(Params):
+    """A pipe stand about z (two inches) on a base plate."""
+
+    side: float = between(0.15, 0.3, "width of its base plate", "m")
+    disc: bool = chance(0.3, "its base plate is round")
+
+    def build(self, t: Table, height: float) -> None:
+        """Puts it down, this high [m]."""
+        side, r = self.side, 0.0302
+        t.add("post", turned(outline(r, 0.01, r, height - 0.004, 0.8 * r, height), t.n(r)))
+        plate = cylinder(side / 2, 0.0, 0.01, t.n(side / 2)) if self.disc else box((side, side, 0.01), (0, 0, 0.005))
+        t.add("base plate", plate)
 
 
-def vessel(
-    low: float, high: float, dn: int, style: ModelingStyle, rng: np.random.Generator, flanged: bool = True
-) -> tuple[list[Part], float]:
-    """A small upright vessel beside the origin with two nozzles towards +x whose faces are in x = 0.
+class Board(Params):
+    """Something to mount on, its front in y = 0 looking to -y: a wall, or a panel on posts."""
 
-    Args:
-        low: height of the lower nozzle [m].
-        high: of the upper one.
-        dn: of the nozzles.
-        style: that models it.
-        rng: draws what is open.
-        flanged: whether the nozzles end in flanges; else in bosses.
+    walled: bool = chance(0.4, "a wall, not a panel on posts")
+    wall: float = between(0.08, 0.2, "thickness of the wall", "m", when=lambda p: p.walled)
+    over: float = between(0.1, 0.6, "what the wall is higher than it need be", "m", when=lambda p: p.walled)
+    sheet: float = among((0.003, 0.006, 0.012), "of the panel", "m", when=lambda p: not p.walled, otherwise=0.0)
+    post: float = among((0.04, 0.05, 0.06), "width of a post", "m", when=lambda p: not p.walled, otherwise=0.0)
 
-    Returns:
-        Its parts, and the place of its axis [m].
-    """
-    radius, reach = float(rng.uniform(0.15, 0.35)), float(rng.uniform(0.09, 0.15))
-    n, x = style.round(radius), -radius - reach
-    bottom, top = low - 0.06 - 0.1 * radius, high + 0.08
-    shell = cylinder(radius, bottom, top, n)
-    parts = [Part(moved(shell, at(x)), "shell", "tank", "", TANK)]
-    lid = dome(radius, 0.45 * radius, 0.0, n) if rng.random() < 0.6 else cylinder(1.06 * radius, 0.0, 0.015, n)
-    parts.append(Part(moved(lid, at(x, 0, top)), "dished head", "tank", "", TANK))
-    under = dome(radius, 0.4 * radius, 0.0, n)
-    parts.append(Part(moved(under, at(x, 0, bottom) @ spun("x", np.pi)), "dished head", "tank", "", TANK))
-    leg = moved(box((0.04, 0.04, bottom + 0.05), (0, 0, (bottom + 0.05) / 2)), at(0.98 * radius + 0.01))
-    for k in range(3):
-        turn = at(x) @ spun("z", np.pi / 3 + k * 2 * np.pi / 3)
-        parts.append(Part(moved(leg, turn), "tank leg", "steel", "", TANK))
-    for z in (low, high):
-        if flanged:
-            nozzle = along("-x", disc_flange(dn, style, reach + 0.02), 0, 0, z)
-        else:
-            nozzle = along("-x", cylinder(1.35 * PIPES[dn].radius, 0.0, reach + 0.02, style.round(0.02)), 0, 0, z)
-        parts.append(Part(nozzle, "nozzle", "tank", "", TANK))
-    return parts, x
+    @property
+    def thick(self) -> float:
+        """From its front to its back [m]."""
+        return self.wall if self.walled else self.sheet
+
+    def build(self, t: Table, wide: float, low: float, high: float) -> None:
+        """Puts it down, this wide and from one height to another [m]."""
+        thick, w = self.thick, self.post
+        if self.walled:
+            tall = high + self.over
+            t.add("wall", box((wide + 0.4, thick, tall), (0, thick / 2, tall / 2)))
+            return
+        t.add("plate", box((wide, thick, high - low), (0, thick / 2, (low + high) / 2)), of="electrical")
+        for x in (0.0,) if wide < 0.25 else (-wide / 2 + w, wide / 2 - w):
+            t.at(x, thick + w / 2).add("post", extrude(rounded_rectangle(w, w, 0.1 * w, 2), 0.01, high))
+            t.add("base plate", box((2.5 * w, 2.5 * w, 0.01), (x, thick + w / 2, 0.005)))
 
 
-def bolted(dn: int, z: float, style: ModelingStyle, pad: float = 0.002) -> list[Part]:
-    """Gasket and bolts of a joint in x = 0 on the height ``z``, a flange on either side."""
-    size, plate, n = FLANGES[dn], plate_thickness(dn), style.round(FLANGES[dn].raised / 2)
-    bolts = bolt_circle(size.n_bolts, size.circle / 2, size.bolt, -plate, plate + pad)
-    disc = ring(PIPES[dn].radius, size.raised / 2, 0.0, pad, n)
-    return [
-        Part(along("x", disc, 0, 0, z), "gasket", "gasket", "", "Pipe assembly"),
-        Part(along("x", bolts, 0, 0, z), "bolt", "fastener", "", JOINT, True),
-    ]
+class Vessel(Params):
+    """A small upright vessel beside the origin with two nozzles towards +x whose faces are in x = 0."""
 
+    radius: float = between(0.15, 0.35, "of the vessel", "m")
+    reach: float = between(0.09, 0.15, "of its nozzles", "m")
+    domed: bool = chance(0.6, "its lid is domed, not flat")
 
-def hole(radius: float, style: ModelingStyle) -> Floats:
-    """The outline of a small round hole."""
-    return circle(radius, fine_sides(radius, style))
+    def build(self, t: Table, low: float, high: float, dn: int, joints: bool = True) -> None:
+        """Puts it down.
 
+        Args:
+            t: with the frame.
+            low: height of the lower nozzle [m].
+            high: of the upper one.
+            dn: of the nozzles.
+            joints: whether the nozzles end in flanges, with gaskets and bolts; else in bosses.
+        """
+        r, reach = self.radius, self.reach
+        n, bottom, top, shell = t.n(r), low - 0.06 - 0.1 * r, high + 0.08, t.at(-r - reach)
+        shell.add("shell", cylinder(r, bottom, top, n))
+        lid = dome(r, 0.45 * r, 0.0, n) if self.domed else cylinder(1.06 * r, 0.0, 0.015, n)
+        shell.at(0, 0, top).add("dished head", lid, of="tank")
+        shell.at(0, 0, bottom).along("-z").add("dished head", dome(r, 0.4 * r, 0.0, n))
+        leg = box((0.04, 0.04, bottom + 0.05), (0.98 * r + 0.01, 0, (bottom + 0.05) / 2))
+        for k in range(3):
+            shell.spun("z", np.pi / 3 + k * 2 * np.pi / 3).add("tank leg", leg)
+        boss = cylinder(1.35 * PIPES[dn].radius, 0.0, reach + 0.02, t.n(0.02))
+        for z in (low, high):
+            t.at(0, 0, z).along("-x").add("nozzle", disc_flange(dn, t.style, reach + 0.02) if joints else boss)
+        for z in (low, high) if joints else ():
+            self._joint(t.at(0, 0, z).along("x"), dn)
 
-def gauge_family(
-    name: str, build: Build, place: str = "tap", sizes: tuple[int, ...] = (15,), weight: float = 1.0
-) -> Family:
-    """A family of gauges."""
-    return Family(name, place, "Gauge assembly", "gauge", build, sizes, weight=weight)
+    def _joint(self, t: Table, dn: int, pad: float = 0.002) -> None:
+        """Gasket and bolts of a joint about z, a flange on either side."""
+        size, plate, n = FLANGES[dn], plate_thickness(dn), t.n(FLANGES[dn].raised / 2)
+        t.add("gasket", ring(PIPES[dn].radius, size.raised / 2, 0.0, pad, n))
+        bolts = bolt_circle(size.n_bolts, size.circle / 2, size.bolt, -plate, plate + pad)
+        t.bundled("").add("bolt", bolts)

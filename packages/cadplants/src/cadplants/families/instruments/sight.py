@@ -4,139 +4,152 @@ from __future__ import annotations
 
 import numpy as np
 
-from cadplants.families.instruments.pieces import JOINT, fine_sides, piece, screws
-from cadplants.families.valves.valve import disc_flange
-from cadplants.family import Family, Model, Part, placed
+from cadplants.builder.device import Device, families_of
+from cadplants.builder.dials import fine_sides
+from cadplants.builder.params import Params, among, between, chance, several, whole
+from cadplants.builder.table import Table, outline
+from cadplants.families.valves.valve import bolt_circle, disc_flange
+from cadplants.family import Model
 from cadplants.flange import plate_thickness
 from cadplants.mesh_ops import merge, moved
-from cadplants.modeling_style import ModelingStyle
 from cadplants.primitives import along, around, box, cylinder, dome, hexagon, ring, rod, turned
-from cadplants.standards import FLANGES, PIPES, SIZES
+from cadplants.standards import PIPES, SIZES
 from cadplants.transforms import at, spun
 from cadplants.valve_body import bore_of
 
-__all__ = ["SIGHT_BUILDS"]
+__all__ = ["SIGHT_BUILDS", "SIGHT_GLASS", "SightGlass"]
 
-_GLASS = "sight glass"
+SIGHT_GLASS = "sight glass"
 
 
-def _hygienic(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class SightGlass(Device, place="inline", group="Gauge assembly", label=SIGHT_GLASS, bundle=SIGHT_GLASS):
+    """A sight glass."""
+
+
+class Hygienic(SightGlass, name="sight glass/hygienic", sizes=tuple(dn for dn in SIZES if 20 <= dn <= 100)):
     """A hygienic sight glass: a bare or caged tube between two ferrules with clamps (DIN 32676), weld ends."""
-    radius = PIPES[dn].radius
-    length, end = round(0.13 + float(rng.uniform(2.5, 5)) * radius, 6), 0.035
-    r, n = 1.15 * radius, style.round(radius)
-    lip = 1.25 * radius + 0.008
-    bore = bore_of(dn, style)
-    stub = turned([(radius, 0.0), (radius, end - 0.008), (lip, end - 0.003), (lip, end)], n, bore=bore)
-    cap = turned([(lip, end), (lip, end + 0.003), (1.1 * r, end + 0.01), (1.1 * r, end + 0.02)], n, bore=bore)
-    band = [
-        ring(0.95 * lip, lip + 0.006, end - 0.007, end + 0.008, n),
-        box((0.022, 0.03, 0.013), (lip + 0.012, 0, end)),
-    ]
-    band.append(along("y", cylinder(0.004, -0.028, 0.03, 8), lip + 0.014, 0, end))
-    flip = at(length) @ spun("z", np.pi)
-    metal = [along("x", cap), along("x", stub)]
-    parts = [piece([*metal, *(moved(m, flip) for m in metal)], _GLASS, "trim")]
-    hoop = along("x", merge(band))
-    parts.append(Part(merge([hoop, moved(hoop, flip)]), "clamp", "clamp", _GLASS, JOINT))
-    tube = along("x", ring(0.9 * r, r, end + 0.012, length - end - 0.012, n))
-    parts.append(piece(tube, "gauge glass", "dial", _GLASS))
-    if rng.random() < 0.6:  # a cage of bars
-        count = int(rng.choice([3, 4, 6]))
-        bars = around(cylinder(0.004, end + 0.014, length - end - 0.014, 8), count, 1.1 * r + 0.003)
-        parts.append(piece(along("x", bars), _GLASS, "trim"))
-    return Model(parts, length, "welded", _GLASS)
+
+    long: float = between(2.5, 5, "its length over that of its ends / radius of the pipe")
+    caged: bool = chance(0.6, "a cage of bars")
+    bars: int = among((3, 4, 6), "of the cage", when=lambda p: p.caged, otherwise=0)
+
+    def build(self, t: Table) -> Model:
+        radius, end, bore = t.pipe.radius, 0.035, bore_of(self.dn, t.style)
+        length, r, n, lip = round(0.13 + self.long * radius, 6), 1.15 * radius, t.n(radius), 1.25 * radius + 0.008
+        stub = turned(outline(radius, 0.0, radius, end - 0.008, lip, end - 0.003, lip, end), n, bore=bore)
+        cap = outline(lip, end, lip, end + 0.003, 1.1 * r, end + 0.01, 1.1 * r, end + 0.02)
+        metal, line = along("x", merge([turned(cap, n, bore=bore), stub])), t.along("x")
+        hoop = ring(0.95 * lip, lip + 0.006, end - 0.007, end + 0.008, n)
+        lug, pin = box((0.022, 0.03, 0.013), (lip + 0.012, 0, end)), cylinder(0.004, -0.028, 0.03, 8)
+        band = along("x", merge([hoop, lug, along("y", pin, lip + 0.014, 0, end)]))
+        flip = at(length) @ spun("z", np.pi)
+        t.add(SIGHT_GLASS, metal, moved(metal, flip))
+        t.add("clamp", band, moved(band, flip), own=True)
+        line.add("gauge glass", ring(0.9 * r, r, end + 0.012, length - end - 0.012, n))
+        if self.caged:
+            bar = cylinder(0.004, end + 0.014, length - end - 0.014, 8)
+            line.add(SIGHT_GLASS, around(bar, self.bars, 1.1 * r + 0.003))
+        return t.model(length, "welded", SIGHT_GLASS)
 
 
-def _cage(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class Ribbed(SightGlass, name="sight glass/ribbed", sizes=tuple(dn for dn in SIZES if dn <= 150)):
     """A tubular sight glass whose two flanges are one casting: long ribs between them leave windows for the tube."""
-    radius, size = PIPES[dn].radius, FLANGES[dn]
-    length, low = round(0.14 + float(rng.uniform(2.5, 4.5)) * radius, 6), plate_thickness(dn)
-    n, r = style.round(1.2 * radius), 1.2 * radius + 0.004
-    plates = [
-        along("x", disc_flange(dn, style, low + 0.012, bore_of(dn, style))),
-        moved(along("-x", disc_flange(dn, style, low + 0.012, bore_of(dn, style))), at(length)),
-    ]
-    outer = min(1.25 * r + 0.006, size.circle / 2 - 0.6 * size.hole)
-    count, wide = int(rng.choice([2, 3, 4])), float(rng.uniform(0.4, 0.9)) * r
-    rib = box((0.01, wide, length - 2 * low), (0, 0, length / 2))
-    ribs = along("x", around(rib, count, outer + 0.004, np.pi / 4))
-    rings = [
-        along("x", ring(0.98 * r, outer + 0.009, z - 0.008, z + 0.008, n)) for z in (low + 0.02, length - low - 0.02)
-    ]
-    pane = along("x", ring(0.86 * r, r, low + 0.011, length - low - 0.011, n))
-    parts = [piece([*plates, ribs, *rings], _GLASS, "valve"), piece(pane, "gauge glass", "dial", _GLASS)]
-    return Model(parts, length, kind=_GLASS)
+
+    long: float = between(2.5, 4.5, "its length over that of its ends / radius of the pipe")
+    ribs: int = among((2, 3, 4), "between the flanges")
+    wide: float = between(0.4, 0.9, "width of a rib / radius of the glass")
+
+    def build(self, t: Table) -> Model:
+        radius, size, low, bore = t.pipe.radius, t.flange, plate_thickness(self.dn), bore_of(self.dn, t.style)
+        length, r = round(0.14 + self.long * radius, 6), 1.2 * radius + 0.004
+        n, outer = t.n(1.2 * radius), min(1.25 * r + 0.006, size.circle / 2 - 0.6 * size.hole)
+        plate = disc_flange(self.dn, t.style, low + 0.012, bore)
+        rib = box((0.01, self.wide * r, length - 2 * low), (0, 0, length / 2))
+        rings = [ring(0.98 * r, outer + 0.009, z - 0.008, z + 0.008, n) for z in (low + 0.02, length - low - 0.02)]
+        middle = [around(rib, self.ribs, outer + 0.004, np.pi / 4), *rings]
+        t.add(
+            SIGHT_GLASS,
+            along("x", plate),
+            along("-x", plate, length),
+            *(along("x", solid) for solid in middle),
+            of="valve",
+        )
+        t.along("x").add("gauge glass", ring(0.86 * r, r, low + 0.011, length - low - 0.011, n))
+        return t.model(length, kind=SIGHT_GLASS)
 
 
-def _eye(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
-    """Oil sight glasses on a machine's housing: bull's eyes with a hexagon or a screwed ring, and a breather."""
-    size = (float(rng.uniform(0.4, 0.9)), float(rng.uniform(0.25, 0.5)), float(rng.uniform(0.3, 0.6)))
-    parts = [Part(box(size, (0, size[1] / 2, size[2] / 2)), "tank", "tank", "", "Tank")]
-    count = int(rng.integers(1, 4))
-    for k in range(count):
-        r = float(rng.uniform(0.012, 0.03))
-        n = style.round(r)
-        if rng.random() < 0.5:
-            eye = [
-                piece(hexagon(2.6 * r, 0.0, 0.35 * r), _GLASS, "trim"),
-                piece(cylinder(1.1 * r, 0.35 * r, 0.5 * r, n), _GLASS, "trim"),
-            ]
-            eye.append(piece(dome(0.85 * r, 0.3 * r, 0.5 * r, n), "gauge glass", "dial", _GLASS))
+class _Eye(Params):
+    """A bull's eye with a hexagon or a bolted ring."""
+
+    radius: float = between(0.012, 0.03, "of the eye", "m")
+    screwed: bool = chance(0.5, "screwed in by a hexagon, not bolted")
+    bolts: int = among((3, 4, 6), "of its ring", when=lambda p: not p.screwed, otherwise=0)
+    level: float = between(0.3, 0.7, "its height / that of the machine")
+
+    def build(self, t: Table) -> None:
+        """Puts it down about z from 0 up."""
+        r, n = self.radius, t.n(self.radius)
+        if self.screwed:
+            t.add(SIGHT_GLASS, hexagon(2.6 * r, 0.0, 0.35 * r))
+            t.add(SIGHT_GLASS, cylinder(1.1 * r, 0.35 * r, 0.5 * r, n))
+            t.add("gauge glass", dome(0.85 * r, 0.3 * r, 0.5 * r, n))
         else:
-            eye = [
-                piece(
-                    [cylinder(1.6 * r, 0.0, 0.2 * r, n), ring(0.85 * r, 1.15 * r, 0.2 * r, 0.5 * r, n)], _GLASS, "trim"
-                )
-            ]
-            eye.append(piece(cylinder(0.84 * r, 0.2 * r, 0.35 * r, n), "gauge glass", "dial", _GLASS))
-            eye.append(screws(int(rng.choice([3, 4, 6])), 1.38 * r, 0.12 * r + 0.002, 0.1 * r, 0.2 * r, _GLASS))
-        x = (k - (count - 1) / 2) * 0.12
-        parts += placed(eye, at(x, 0, float(rng.uniform(0.3, 0.7)) * size[2]) @ spun("x", np.pi / 2))
-    plug = merge([cylinder(0.018, 0.0, 0.02, 14), turned([(0.03, 0.02), (0.034, 0.05), (0.025, 0.06)], 16)])
-    cap = moved(plug, at(0.3 * size[0], 0.5 * size[1], size[2]))
-    return Model([*parts, Part(cap, "pipe cap", "rubber", "", "Pipe assembly")], kind=_GLASS)
+            t.add(SIGHT_GLASS, cylinder(1.6 * r, 0.0, 0.2 * r, n), ring(0.85 * r, 1.15 * r, 0.2 * r, 0.5 * r, n))
+            t.add("gauge glass", cylinder(0.84 * r, 0.2 * r, 0.35 * r, n))
+            t.add("bolt", bolt_circle(self.bolts, 1.38 * r, 0.12 * r + 0.002, 0.1 * r, 0.2 * r))
 
 
-def _funnel(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+class OilEye(SightGlass, name="sight glass/oil eye", place="floor", sizes=(15,)):
+    """Oil sight glasses on a machine's housing: bull's eyes with a hexagon or a screwed ring, and a breather."""
+
+    long: float = between(0.4, 0.9, "length of the housing", "m")
+    deep: float = between(0.25, 0.5, "depth of the housing", "m")
+    tall: float = between(0.3, 0.6, "height of the housing", "m")
+    count: int = whole(1, 3, "bull's eyes")
+    eyes: tuple[_Eye, ...] = several(lambda rng, _: _Eye.draw(rng), lambda p: p.count, "bull's eyes")
+
+    def build(self, t: Table) -> Model:
+        long, deep, tall = self.long, self.deep, self.tall
+        t.add("tank", box((long, deep, tall), (0, deep / 2, tall / 2)))
+        for k, eye in enumerate(self.eyes):
+            eye.build(t.at((k - (self.count - 1) / 2) * 0.12, 0, eye.level * tall).along("-y"))
+        breather = turned(outline(0.03, 0.02, 0.034, 0.05, 0.025, 0.06), 16)
+        t.at(0.3 * long, 0.5 * deep, tall).add("pipe cap", cylinder(0.018, 0.0, 0.02, 14), breather, of="rubber")
+        return t.model(kind=SIGHT_GLASS)
+
+
+class Drip(SightGlass, name="sight glass/drip", place="floor", sizes=(15,)):
     """A drip sight: a spout over a funnel on a drain pipe, a glass cylinder and maybe two stays between them."""
-    dn, high = int(rng.choice([25, 40, 50])), float(rng.uniform(0.4, 0.9))
-    r = PIPES[dn].radius
-    wide, n = float(rng.uniform(1.8, 2.6)) * r, style.round(2 * r)
-    drain = cylinder(r, 0.0, high, style.round(r))
-    funnel = turned(
-        [
-            (1.15 * r, high - 0.03),
-            (1.15 * r, high),
-            (wide, high + 1.2 * wide),
-            (0.93 * wide, high + 1.2 * wide),
-            (0.5 * r, high + 0.01),
-        ],
-        n,
-    )
-    gap, top = float(rng.uniform(0.05, 0.1)), high + 1.2 * wide
-    head = turned(
-        [(wide, top + gap), (wide, top + gap + 0.01), (1.15 * r, top + gap + 0.03), (1.15 * r, top + gap + 0.06)], n
-    )
-    spout = cylinder(0.6 * r, top + 0.3 * gap, top + gap + 0.001, fine_sides(r, style))
-    feed = cylinder(r, top + gap + 0.058, top + gap + float(rng.uniform(0.3, 0.8)), style.round(r))
-    parts = [Part(drain, "pipe", "pipe", "", "Pipe assembly"), Part(feed, "pipe", "pipe", "", "Pipe assembly")]
-    x = 1.02 * wide + 0.002
-    stays = [rod((s * x, 0, top - 0.03), (s * x, 0, top + gap + 0.012), 0.003, 8) for s in (-1, 1)]
-    ears = [box((0.014, 0.014, 0.01), (s * wide, 0, z)) for s in (-1, 1) for z in (top - 0.006, top + gap + 0.005)]
-    metal = [funnel, head, spout, *([*stays, *ears] if rng.random() < 0.5 else [])]
-    parts.append(piece(metal, _GLASS, str(rng.choice(["trim", "handle"]))))
-    parts.append(piece(ring(0.94 * wide, 0.99 * wide, top, top + gap, n), "gauge glass", "dial", _GLASS))
-    return Model(parts, kind=_GLASS)
+
+    pipe: int = among((25, 40, 50), "nominal size of the drain", "mm")
+    high: float = between(0.4, 0.9, "height of the drain", "m")
+    wide: float = between(1.8, 2.6, "radius of the funnel / of the drain")
+    gap: float = between(0.05, 0.1, "from the funnel to the head", "m")
+    feed: float = between(0.3, 0.8, "height of the feed's end over the funnel and the gap", "m")
+    stayed: bool = chance(0.5, "two stays between funnel and head")
+    metal: str = among(("trim", "handle"), "kind of material")
+
+    def build(self, t: Table) -> Model:
+        r, high, gap = PIPES[self.pipe].radius, self.high, self.gap
+        wide, n, m = self.wide * r, t.n(2 * r), t.n(r)
+        top = high + 1.2 * wide
+        end = top + gap
+        t.add("pipe", cylinder(r, 0.0, high, m))
+        t.add("pipe", cylinder(r, end + 0.058, end + self.feed, m))
+        cone = outline(1.15 * r, high - 0.03, 1.15 * r, high, wide, top, 0.93 * wide, top, 0.5 * r, high + 0.01)
+        head = outline(wide, end, wide, end + 0.01, 1.15 * r, end + 0.03, 1.15 * r, end + 0.06)
+        metal = [
+            turned(cone, n),
+            turned(head, n),
+            cylinder(0.6 * r, top + 0.3 * gap, end + 0.001, fine_sides(r, t.style)),
+        ]
+        if self.stayed:
+            x = 1.02 * wide + 0.002
+            metal += [rod((s * x, 0, top - 0.03), (s * x, 0, end + 0.012), 0.003, 8) for s in (-1, 1)]
+            metal += [box((0.014, 0.014, 0.01), (s * wide, 0, z)) for s in (-1, 1) for z in (top - 0.006, end + 0.005)]
+        t.add(SIGHT_GLASS, *metal, of=self.metal)
+        t.add("gauge glass", ring(0.94 * wide, 0.99 * wide, top, end, n))
+        return t.model(kind=SIGHT_GLASS)
 
 
-def _family(name: str, build: object, place: str, sizes: tuple[int, ...]) -> Family:
-    return Family(name, place, "Gauge assembly", _GLASS, build, sizes)  # type: ignore[arg-type]
-
-
-SIGHT_BUILDS: tuple[Family, ...] = (
-    _family("sight glass/hygienic", _hygienic, "inline", tuple(dn for dn in SIZES if 20 <= dn <= 100)),
-    _family("sight glass/ribbed", _cage, "inline", tuple(dn for dn in SIZES if dn <= 150)),
-    _family("sight glass/oil eye", _eye, "floor", (15,)),
-    _family("sight glass/drip", _funnel, "floor", (15,)),
-)
+SIGHT_BUILDS = families_of(Hygienic, Ribbed, OilEye, Drip)
