@@ -13,7 +13,8 @@ if TYPE_CHECKING:
     from cadplants.riser import make_riser
     from cadplants.skid import make_skid
     from cadplants.tank import make_tank
-    from cadplants.usd import UsdStyle, draw_style, truth_path, write_usd
+    from cadplants.usd import truth_path, write_usd
+    from cadplants.usd_style import UsdStyle, draw_style
     from cadplants.writers import write_plant
     from cadplants.writers.metadata import Metadata
     from cadplants.writers.plant_file import FileStyle
@@ -54,10 +55,10 @@ _LATER = {
     "PRESETS": "cadplants.preset",
     "Plant": "cadplants.plant",
     "STYLES": "cadplants.modeling_style",
-    "UsdStyle": "cadplants.usd",
+    "UsdStyle": "cadplants.usd_style",
     "degrade": "cadplants.defects",
     "draw_defects": "cadplants.defects",
-    "draw_style": "cadplants.usd",
+    "draw_style": "cadplants.usd_style",
     "make": "cadplants.preset",
     "make_riser": "cadplants.riser",
     "make_skid": "cadplants.skid",

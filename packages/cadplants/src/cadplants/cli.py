@@ -179,15 +179,10 @@ def make_device_file(
     out.print(f"wrote {escape(str(output))} and {escape(str(truth))}")
 
 
-def _tell_parameters(family: Family, drawn: Device | None) -> None:
+def _tell_parameters(family: Family, drawn: Device) -> None:
     """A line for each parameter: its value in this draw, what it can be, what it means."""
-    from cadplants.single_device import usual_size
-
     sizes = ", ".join(map(str, family.sizes)) if family.place in ("inline", "end", "carrier") else ""
     out.print(escape(f"{family.name}: {family.group}, {family.place}" + (f", DN {sizes}" if sizes else "")))
-    if drawn is None:
-        out.print(f"no parameters: give --seed, --style and --set dn={usual_size(family)}")
-        return
     table = Table(Column("parameter", no_wrap=True), "here", "can be", "what it is", box=None, pad_edge=False)
     for row in drawn.rows():
         table.add_row(*map(escape, row))

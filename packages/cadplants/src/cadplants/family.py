@@ -13,10 +13,9 @@ from cadplants.plant import Assembly, Component, Device, Turning, Unit, turned_f
 from cadplants.standards import SIZES
 from cadplants.transforms import IDENTITY
 
-__all__ = ["UNIT", "Build", "Family", "Model", "Part", "Port", "as_assembly", "as_device", "fronted", "placed"]
+__all__ = ["UNIT", "Build", "Family", "Model", "Part", "Port", "as_assembly", "as_device", "placed"]
 
 _EXACT = 1e-9  # m; rounding
-_READ = ("gauge face", "gauge needle", "gauge glass")  # names of what is read
 _UNITS = {
     "Valve assembly": "valve",
     "Gauge assembly": "gauge",
@@ -141,11 +140,6 @@ def placed(parts: Sequence[Part], pose: Floats) -> list[Part]:
         )
         for part in parts
     ]
-
-
-def fronted(parts: Sequence[Part], front: tuple[float, float, float] = (0.0, 0.0, 1.0)) -> list[Part]:
-    """The parts, those that are read marked with the unit vector out of them."""
-    return [replace(p, front=front) if p.name in _READ else p for p in parts]
 
 
 def _grain_of(family: Family, style: ModelingStyle) -> Grain:

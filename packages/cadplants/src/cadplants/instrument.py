@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from cadplants.brand import Brand
-from cadplants.gauge import pressure_gauge, side_gauge
+from cadplants.gauge import pressure_gauge
 from cadplants.layout import Inline, Tap
 from cadplants.meter import flow_meter, strainer
 from cadplants.modeling_style import ModelingStyle
@@ -18,9 +18,7 @@ from cadplants.plant import Assembly, Device
 from cadplants.primitive_devices import in_primitives
 from cadplants.valve import VALVES
 
-__all__ = ["eccentric_at", "gauge_tap", "meter_at", "reducer_at", "side_gauge_tap", "strainer_at", "tee_at", "valve_at"]
-
-_REVERSED = np.diag([-1.0, -1.0, 1.0, 1.0])
+__all__ = ["eccentric_at", "gauge_tap", "meter_at", "reducer_at", "strainer_at", "tee_at", "valve_at"]
 
 
 def valve_at(
@@ -92,16 +90,6 @@ def gauge_tap(s: float, unit: str, rng: np.random.Generator, size: int = 63, tur
     return Tap(s, build, unit)
 
 
-def side_gauge_tap(
-    s: float, unit: str, rng: np.random.Generator, down: bool = False, roll: float = np.pi / 2, size: int = 63
-) -> Tap:
-    """A pressure gauge beside an upright pipe; ``down`` where the run goes down there, ``roll`` about the run [rad]."""
-    build: Callable[[ModelingStyle], Assembly] = partial(
-        _side, unit=unit, size=size, down=down, needle=float(rng.uniform(0.6, 2.6))
-    )
-    return Tap(s, build, unit, roll)
-
-
 def _valve(style: ModelingStyle, kind: str, unit: str, dn: int, options: Mapping[str, Any]) -> Device:
     built = VALVES[kind](unit, dn, style, **options)
     return in_primitives(built, dn, style) if style.devices == "primitives" else built
@@ -129,9 +117,3 @@ def _eccentric(style: ModelingStyle, dn: int, other: int) -> Device:
 
 def _gauge(style: ModelingStyle, unit: str, size: int, turn: float, needle: float, height: float) -> Assembly:
     return pressure_gauge(unit, style, size, height, turn, needle)
-
-
-def _side(style: ModelingStyle, unit: str, size: int, down: bool, needle: float) -> Assembly:
-    gauge = side_gauge(unit, style, size, 0.09 if size < 100 else 0.11, 0.06, -np.pi / 2 if down else np.pi / 2, needle)
-    # On a run that goes down, up is against it.
-    return gauge.placed(_REVERSED) if down else gauge

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import difflib
 from collections.abc import Mapping
-from typing import Any
-
-import numpy as np
+from typing import Any, cast
 
 from cadplants.builder.device import Device, Maker
 from cadplants.contacts import met
@@ -42,8 +40,8 @@ def usual_size(family: Family) -> int:
 
 def draw_parameters(
     name: str, seed: int = 0, given: Mapping[str, Any] | None = None, style: str | ModelingStyle = "plant-design"
-) -> Device | None:
-    """The parameters of one device of a family; None where the family doesn't have any.
+) -> Device:
+    """The parameters of one device of a family.
 
     Args:
         name: of the family.
@@ -57,12 +55,9 @@ def draw_parameters(
     family, told = family_called(name), dict(given or {})
     size = _size(family, told)
     told.pop("dn", None)
-    if not isinstance(family.build, Maker):
-        if told:
-            raise ValueError(f"{name} has no parameters that can be given, only a seed, a size (dn) and a style")
-        return None
     height = (CARRIED,) if family.place == "carrier" else ()
-    return family.build.draw(size, _style_called(style), seed, *height, **told)
+    # All families that have a name here are classes of parameters.
+    return cast(Maker, family.build).draw(size, _style_called(style), seed, *height, **told)
 
 
 def _style_called(style: str | ModelingStyle) -> ModelingStyle:
@@ -97,20 +92,14 @@ def make_device(
         seed: of what is not given.
         style: a modelling style, or the name of a published one.
         dn: nominal size [mm]; one in the middle of its range if None.
-        given: parameters by name, of pieces as ``"drive.length"``; only of families that have parameters.
+        given: parameters by name, of pieces as ``"drive.length"``.
 
     Raises:
         ValueError: no such family, style, size or parameter, or a value can't be.
     """
     family, style = family_called(name), _style_called(style)
     told = {**({"dn": dn} if dn is not None else {}), **(given or {})}
-    drawn = draw_parameters(name, seed, told, style)
-    model: Any
-    if drawn is not None:
-        model = drawn.model(style)
-    else:
-        height = (CARRIED,) if family.place == "carrier" else ()
-        model = family.build(_size(family, told), style, np.random.default_rng(seed), *height)
+    model = draw_parameters(name, seed, told, style).model(style)
     unit = "X-1" if family.unit else ""
     made = as_device(family, model, style, unit).assembly if family.place == "inline" else None
     assembly = met(made or as_assembly(family, model, style, unit)).marked(cluster="device", style=style.name)

@@ -15,7 +15,7 @@ from cadplants.mesh_ops import Solid
 from cadplants.plant import RGB, Component, Plant
 from cadplants.tessellate import facets
 from cadplants.transforms import at, spun
-from cadplants.usd import WAYS, Instances, UsdStyle
+from cadplants.usd_style import WAYS, Instances, UsdStyle
 
 __all__ = ["LayerWriter"]
 

@@ -5,14 +5,12 @@ Each is built in the frame of a table: a dial about z with its front towards +z,
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
 from cadplants.builder.params import Params, among, between, chance, nested, weighted, whole
 from cadplants.builder.table import Table, outline
-from cadplants.family import Part
 from cadplants.mesh_ops import Solid, extrude, merge, moved
 from cadplants.modeling_style import ModelingStyle
 from cadplants.plant import Turning
@@ -22,7 +20,7 @@ from cadplants.transforms import at, spun
 
 __all__ = [
     "CASE", "CASES", "STEM", "Dial", "DialFace", "Gland", "Housing", "Indicator", "Needle", "Shank", "StandingGauge",
-    "case_of", "fine_sides", "put_down", "upright",
+    "case_of", "fine_sides", "upright",
 ]  # fmt: skip
 
 CASE, STEM = "gauge case", "gauge stem"
@@ -302,10 +300,3 @@ class Indicator(Params):
         t.add("gauge needle", needle, turns=Turning("needle"), front=front)
         if self.glazed:
             t.add("gauge glass", extrude(0.855 * shape, 0.92 * deep, 0.96 * deep), front=front)
-
-
-def put_down(style: ModelingStyle, build: Callable[[Table], object]) -> list[Part]:
-    """The parts that are put on an empty table of instruments, for what is not built on one yet."""
-    t = Table(style, "Gauge assembly", CASE)
-    build(t)
-    return t.parts

@@ -17,7 +17,8 @@ import numpy as np
 
 from cadgraph._io.atomic import replacing, write_atomically
 from cadgraph.errors import MissingExtra
-from cadplants.usd import UsdStyle, truth_path, write_usd
+from cadplants.usd import truth_path, write_usd
+from cadplants.usd_style import UsdStyle
 
 if TYPE_CHECKING:
     from cadgraph.model.scene import Floats

@@ -19,7 +19,6 @@ from cadplants.transforms import at, spun
 
 __all__ = ["PLATES_ALIKE"]
 
-_PIPE, _HELD = "Pipe assembly", "Connection assembly"
 _LEAST_DRILLED = 12  # sides; the holes of a coarser plate would cut its rim
 
 

@@ -142,11 +142,12 @@ class NozzleMix(Params):
         t.add("wall", box((0.15, 8 * r + 0.2, z + 5 * r), (-0.075, 0, (z + 5 * r) / 2)))
 
 
-_FORMS: tuple[type[InDuct | Row | NozzleMix], ...] = (InDuct, Row, NozzleMix)
+_FORMS: tuple[type[InDuct] | type[Row] | type[NozzleMix], ...] = (InDuct, Row, NozzleMix)
 
 
 def _without_fan(source: Source, p: Any) -> InDuct | Row | NozzleMix:
-    return _FORMS[p.form].draw(source)
+    form: type[InDuct] | type[Row] | type[NozzleMix] = _FORMS[p.form]
+    return form.draw(source)
 
 
 class WithoutFan(

@@ -139,11 +139,12 @@ class OnDrum(Params):
         t.add("tank", cylinder(0.29, 0, 0.88, sides), *hoops)
 
 
-_HAND_PUMPS: tuple[type[Wing | Pitcher | OnDrum], ...] = (Wing, Pitcher, OnDrum)
+_HAND_PUMPS: tuple[type[Wing] | type[Pitcher] | type[OnDrum], ...] = (Wing, Pitcher, OnDrum)
 
 
 def _hand_pump(source: Source, p: Any) -> Wing | Pitcher | OnDrum:
-    return _HAND_PUMPS[p.form].draw(source)
+    form: type[Wing] | type[Pitcher] | type[OnDrum] = _HAND_PUMPS[p.form]
+    return form.draw(source)
 
 
 class Hand(Device, name="pump/hand", group=PUMP, label="pump", bundle=CASING, sizes=(15,)):
@@ -201,8 +202,8 @@ class PowerPack(Pump, name="pump/hydraulic power pack", sizes=(15,)):
             self.motor.build(up.at(0, 0, m).spun("z", self.turn * np.pi / 2), m, 2.8 * m)
             return
         x, axis = -0.42 * w, z + 1.2 * m
-        bell = turned(outline(0.5 * m, 0, 0.5 * m, 0.4 * m, 0.95 * m, 0.9 * m), n)
-        t.at(x, 0, axis).add(CASING, box((0.7 * m, 1.0 * m, 1.0 * m)), along("x", bell, 0.3 * m))
+        cone = turned(outline(0.5 * m, 0, 0.5 * m, 0.4 * m, 0.95 * m, 0.9 * m), n)
+        t.at(x, 0, axis).add(CASING, box((0.7 * m, 1.0 * m, 1.0 * m)), along("x", cone, 0.3 * m))
         self.lying.build(t.at(x + 1.2 * m, 0, axis).moved(LYING), m, min(3.0 * m, 0.6 * w), 1.2 * m)
         hose = [(x, 0.5 * m, axis), (x, 0.9 * m, axis), (x, 1.1 * m, axis - 0.3 * m), (x, 1.1 * m, z - 0.002)]
         t.add("hose", rope(hose, 0.015, 8))

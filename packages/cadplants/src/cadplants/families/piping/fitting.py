@@ -24,8 +24,6 @@ from cadplants.valve_body import bore_of
 
 __all__ = ["FITTINGS"]
 
-_BOTH = (-1, 1)
-
 
 class _Fitting(Fitting, weight=1.0):
     """A fitting of the common makes."""

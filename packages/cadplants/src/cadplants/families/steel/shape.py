@@ -52,7 +52,6 @@ GROUP = "Structural element"
 Rng = np.random.Generator
 Count = Callable[[Any], int]
 T = TypeVar("T")
-P = TypeVar("P", bound=Params)
 Section = tuple[Floats, tuple[Floats, ...]]
 BOTH = (-1, 1)
 CORNERS = ((-1, -1), (-1, 1), (1, -1), (1, 1))

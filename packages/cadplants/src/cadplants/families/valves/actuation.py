@@ -13,17 +13,18 @@ from cadplants.builder.table import Table, outline
 from cadplants.families.valves.actuation_base import INDICATORS, QUARTERS, put_indicator, put_stem
 from cadplants.families.valves.actuation_gear import Bevel, Worm
 from cadplants.families.valves.actuation_hand import Handlever, Handwheel, cylinder_at, scaled, slab, span
-from cadplants.families.valves.drive import BODY, driven, table_for
-from cadplants.family import Part
+from cadplants.families.valves.drive import BODY, driven
 from cadplants.mesh_ops import merge, moved
-from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle
 from cadplants.primitives import along, box, cylinder, hexagon, rod, turned
 from cadplants.transforms import at, spun
 
-__all__ = ["OPERATORS", "Operator", "operator", "quarter_turn"]
+__all__ = [
+    "OPERATORS",
+    "Operator",
+    "operator",
+]
 
-Rng = np.random.Generator
 _BOTH = (-1, 1)
 _MOUNTS = ("bent deep", "bent", "plates", "pillars")
 _ABOUT_MOUNT = "bracket between valve and actuator"
@@ -313,21 +314,3 @@ def operator(
         when: whether there is one, by the fields before.
     """
     return driven(_operators(*makes), "what turns its stem", radius, when)
-
-
-def quarter_turn(
-    x: float, z: float, radius: float, style: ModelingStyle, rng: Rng, kinds: tuple[str, ...] = ()
-) -> list[Part]:
-    """One of some operators on a stem at ``x`` whose pad is on the height ``z``, scaled by the pipe's radius [m].
-
-    Args:
-        x: of the stem [m].
-        z: of the pad [m].
-        radius: of the pipe [m].
-        style: that models it.
-        rng: of its proportions.
-        kinds: to draw from: ``lever`` or those of actuators and gears; all by default.
-    """
-    t = table_for(style)
-    _operators(*kinds).draw(rng, {"radius": radius}).build(t.at(x, 0, z))
-    return t.parts

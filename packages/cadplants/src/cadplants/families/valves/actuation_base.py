@@ -2,25 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 
 from cadplants.builder.table import Table, outline
-from cadplants.families.valves.actuation_hand import Handlever, Handwheel, levers, scaled, slab, wheels
-from cadplants.families.valves.drive import BODY, table_for
+from cadplants.families.valves.actuation_hand import scaled, slab
+from cadplants.families.valves.drive import BODY
 from cadplants.family import Part
 from cadplants.mesh_ops import Solid
-from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import rounded_rectangle
 from cadplants.primitives import along, box, cylinder, dome, hexagon, turned
 
 __all__ = [
-    "INDICATORS", "QUARTERS", "STEMS", "bolted", "hand_lever", "hand_wheel", "indicator", "put_indicator", "put_stem",
-    "shaft",
+    "INDICATORS", "QUARTERS", "STEMS", "bolted", "put_indicator", "put_stem",
 ]  # fmt: skip
 
-Rng = np.random.Generator
 
 STEMS = ("plain", "threaded", "with flats", "plain")
 """How a stem is made."""
@@ -77,33 +72,3 @@ def put_indicator(t: Table, size: float, form: str, bundle: str = "actuator") ->
 
 
 # --- the same as finished parts ---
-
-
-def _part(style: ModelingStyle, put: Callable[[Table], None]) -> Part:
-    t = table_for(style)
-    put(t)
-    return t.parts[0]
-
-
-def shaft(low: float, high: float, radius: float, style: ModelingStyle, rng: Rng | None = None) -> Part:
-    """A stem: plain, or of any form [m]."""
-    form = "plain" if rng is None else STEMS[int(rng.integers(len(STEMS)))]
-    return _part(style, lambda t: put_stem(t, low, high, radius, form))
-
-
-def hand_wheel(radius: float, z: float, style: ModelingStyle, rng: Rng, kinds: tuple[str, ...] = ()) -> Part:
-    """A handwheel with its hub on the height ``z`` [m]."""
-    one = (wheels(*kinds) if kinds else Handwheel).draw(rng)
-    return _part(style, lambda t: one.build(t, radius, z))
-
-
-def hand_lever(length: float, z: float, style: ModelingStyle, rng: Rng, kinds: tuple[str, ...] = ()) -> Part:
-    """A lever with its eye on the height ``z`` [m]."""
-    one = (levers(*kinds) if kinds else Handlever).draw(rng)
-    return _part(style, lambda t: one.build(t, length, z))
-
-
-def indicator(size: float, style: ModelingStyle, rng: Rng, kinds: int = 5) -> Part:
-    """What shows the position on top of a turning shaft: puck, dome, pointer over a scale, or a switch box."""
-    form = INDICATORS[int(rng.integers(kinds))]
-    return _part(style, lambda t: put_indicator(t, size, form))

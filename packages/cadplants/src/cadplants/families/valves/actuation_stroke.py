@@ -13,27 +13,21 @@ from cadplants.builder.table import Table, outline
 from cadplants.families.valves.actuation import OPERATORS, operator
 from cadplants.families.valves.actuation_base import STEMS, put_stem
 from cadplants.families.valves.actuation_hand import Handwheel, scaled, slab
-from cadplants.families.valves.drive import BODY, driven, table_for
-from cadplants.family import Part
+from cadplants.families.valves.drive import BODY, driven
 from cadplants.mesh_ops import Solid, merge, moved, sweep
-from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle
 from cadplants.primitives import along, around, box, cylinder, dome, hexagon, ring, rod, rope, turned
 from cadplants.transforms import at, spun
 
 __all__ = [
-    "LINEAR",
     "STROKES",
     "Linear",
     "OutsideScrew",
     "Yoke",
-    "linear",
     "linear_of",
     "screw_of",
-    "yoke_arms",
 ]
 
-Rng = np.random.Generator
 _BOTH = (-1, 1)
 _ABOUT_STEM = "form of the stem"
 _YOKES = ("arched", "waisted", "pillars", "window frame", "flat bars", "slotted tube")
@@ -349,31 +343,3 @@ def screw_of(radius: Callable[[Any], float], when: Callable[[Any], bool] | None 
 
 
 # --- the same as finished parts ---
-
-
-def yoke_arms(half: float, tall: float, style: ModelingStyle, rng: Rng, bundle: str = BODY) -> Part:
-    """A yoke from z = 0 to ``tall`` [m]."""
-    t = table_for(style)
-    Yoke.draw(rng).build(t.bundled(bundle), half, tall)
-    return t.parts[0]
-
-
-def _stroke(make: str, radius: float, tall: float, style: ModelingStyle, rng: Rng) -> list[Part]:
-    t = table_for(style)
-    STROKES[make].draw(rng).build(t, radius, tall)
-    return t.parts
-
-
-LINEAR: dict[str, Callable[[float, float, ModelingStyle, Rng], list[Part]]] = {
-    make: lambda radius, tall, style, rng, make=make: _stroke(make, radius, tall, style, rng)  # type: ignore[misc]
-    for make in STROKES
-}
-
-
-def linear(
-    x: float, z: float, radius: float, style: ModelingStyle, rng: Rng, kinds: tuple[str, ...] = ()
-) -> list[Part]:
-    """A yoke with one of some linear actuators of ``kinds`` on a stem at ``x``, a bonnet's top on ``z`` [m]."""
-    t = table_for(style)
-    _linears(*kinds).draw(rng, {"radius": radius}).build(t.at(x, 0, z))
-    return t.parts

@@ -24,9 +24,8 @@ from cadplants.families.valves.body import (
     room,
     valve_ball,
 )
-from cadplants.families.valves.drive import table_for
 from cadplants.families.valves.valve import Valve
-from cadplants.family import Model, Part
+from cadplants.family import Model
 from cadplants.mesh_ops import Solid, about_x, merge, moved, revolve, weld
 from cadplants.modeling_style import ModelingStyle
 from cadplants.primitives import along, around, box, cylinder, hexagon, ring, rod, turned
@@ -34,11 +33,9 @@ from cadplants.standards import FACE_TO_FACE, PIPES, SIZES
 from cadplants.transforms import at, spun
 
 __all__ = [
-    "BALLS", "BallInside", "ClampedEnds", "StemTop", "ball_inside", "clamped_ends", "ferrule", "part_ring",
-    "some_turn", "stem_top",
+    "BALLS", "BallInside", "ClampedEnds", "StemTop", "ferrule", "part_ring",
 ]  # fmt: skip
 
-Rng = np.random.Generator
 _BOTH = (-1, 1)
 _TURNS = (0.0, 0.0, np.pi / 4, np.pi / 2)
 _ABOUT_TURN = "of its ball, from open"
@@ -387,35 +384,6 @@ def _clamp(dn: int, style: ModelingStyle) -> Solid:
 
 
 # --- the same as finished parts ---
-
-
-def some_turn(rng: Rng) -> float:
-    """How far a ball or disc is turned from open [rad]."""
-    return _TURNS[int(rng.integers(len(_TURNS)))]
-
-
-def ball_inside(dn: int, x: float, style: ModelingStyle, rng: Rng, trunnions: float = 0.0) -> list[Part]:
-    """The ball and its two seats, where a style shows the inside at all."""
-    t = table_for(style)
-    if style.hollow:
-        BallInside.draw(rng).build(t.at(x), dn, trunnions)
-    return t.parts
-
-
-def stem_top(
-    x: float, low: float, high: float, radius: float, style: ModelingStyle, rng: Rng, pad: str = ""
-) -> list[Part]:
-    """The top of a stem at ``x`` up to ``high``, with a mounting pad of any form or of this one [m]."""
-    t = table_for(style)
-    StemTop.draw(rng, {"pad": pad} if pad else {}).build(t.at(x), low, high, radius)
-    return t.parts
-
-
-def clamped_ends(dn: int, stub: float, length: float, style: ModelingStyle, rng: Rng) -> list[Part]:
-    """The pipe's ferrules before and behind a sanitary valve whose own faces lie ``stub`` inward, with their clamps."""
-    t = table_for(style)
-    ClampedEnds.draw(rng).build(t, dn, stub, length)
-    return t.parts
 
 
 BALLS = families_of(Trunnion, TopEntry, FullyWelded, Segment, WaferBall, SplitBody)

@@ -11,7 +11,7 @@ from cadplants.builder.params import Params, among, nested
 from cadplants.builder.table import Table, outline
 from cadplants.families.valves.actuation_base import bolted
 from cadplants.families.valves.actuation_hand import scaled, slab, span
-from cadplants.families.valves.drive import BODY, table_for
+from cadplants.families.valves.drive import BODY
 from cadplants.families.valves.threaded import hex_end
 from cadplants.families.valves.valve import flanged_body
 from cadplants.family import Part
@@ -25,17 +25,12 @@ from cadplants.transforms import at, spun
 from cadplants.valve_body import bore_of
 
 __all__ = [
-    "Blade", "Packing", "TurnedBlade", "bolts_on", "chest", "ended", "lid_joint", "metal", "neck_of", "oval",
-    "packing", "packings", "part_turned", "plate_outline", "room", "trim", "valve_ball", "wedge",
+    "Blade", "Packing", "TurnedBlade", "bolts_on", "chest", "ended", "lid_joint", "neck_of", "oval",
+    "packings", "part_turned", "plate_outline", "room", "trim", "valve_ball", "wedge",
 ]  # fmt: skip
 
 Rng = np.random.Generator
 Middle = list[tuple[float, float]]
-
-
-def metal(solid: Solid, x: float = 0.0, color: str = "valve") -> Part:
-    """A piece of the body, shifted along the run [m]."""
-    return Part(moved(solid, at(x)) if x else solid, BODY, color, BODY)
 
 
 def trim(solid: Solid, name: str, x: float = 0.0, color: str = "trim") -> Part:
@@ -193,13 +188,6 @@ def packings(*forms: str) -> type[Packing]:
         form: str = among(forms, "how it is made")
 
     return Packings
-
-
-def packing(slim: float, style: ModelingStyle, rng: Rng, kind: int = -1) -> tuple[list[Part], float]:
-    """A gland as finished parts, and its height [m]; ``kind``: which one, any if below 0."""
-    t, one = table_for(style), (packings(_FORMS[kind]) if kind >= 0 else Packing).draw(rng)
-    one.build(t, slim)
-    return t.parts, one.high(slim)
 
 
 def wedge(dn: int, x: float, thick: float, rise: float, style: ModelingStyle) -> Part:

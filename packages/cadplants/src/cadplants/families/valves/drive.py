@@ -21,7 +21,7 @@ from cadplants.standards import PIPES
 from cadplants.transforms import at, spun
 
 __all__ = [
-    "BODY", "DiaphragmHead", "Drive", "Wheel", "drive", "drive_of", "driven", "put_spindle", "stem",
+    "BODY", "DiaphragmHead", "Drive", "Wheel", "drive_of", "driven", "put_spindle", "stem",
     "table_for", "wheel",
 ]  # fmt: skip
 
@@ -351,10 +351,3 @@ def wheel(radius: float, x: float, z: float, style: ModelingStyle, rng: Rng) -> 
     t = table_for(style)
     Wheel.draw(rng).build(t.at(x), radius, z)
     return t.parts[0]
-
-
-def drive(x: float, z: float, radius: float, style: ModelingStyle, rng: Rng, kinds: tuple[str, ...] = ()) -> list[Part]:
-    """One of some drives at random on a stem at ``x`` whose collar's top is on ``z``, scaled by a pipe's radius [m]."""
-    t = table_for(style)
-    _drives(*kinds).draw(rng, {"radius": radius}).build(t.at(x, 0, z))
-    return t.parts

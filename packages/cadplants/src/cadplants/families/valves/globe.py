@@ -24,7 +24,7 @@ from cadplants.standards import FACE_TO_FACE, PIPES, SIZES
 from cadplants.transforms import at
 from cadplants.valve_body import bore_of
 
-__all__ = ["GLOBES", "GlobeBody", "globe_body", "globe_plug"]
+__all__ = ["GLOBES", "GlobeBody", "globe_plug"]
 
 _BOTH = (-1, 1)
 _ABOUT_STEM = "form of its stem"
@@ -238,13 +238,6 @@ class CutOpen(Valve, name="globe valve/cut open", sizes=MID, weight=0.6):
 
 
 # --- the same at random ---
-
-
-def globe_body(
-    dn: int, style: ModelingStyle, rng: np.random.Generator, length: float, ends: str, seat: float, throat: float
-) -> Solid:
-    """A globe's body up to the height ``seat`` [m]."""
-    return GlobeBody.draw(rng).solid(dn, style, length, ends, seat, throat)
 
 
 GLOBES = families_of(Bellows, Needle, Cryogenic, CutOpen)

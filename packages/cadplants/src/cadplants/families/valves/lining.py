@@ -29,7 +29,6 @@ __all__ = ["LININGS"]
 
 _ABOUT_STEM = "how the stem is made"
 _ABOUT_WHEELED = "a wheel rather than an actuator"
-_WHEELS = wheels("spoked", "spoked", "lobed", "dished", "disc")
 
 
 def _ovals(a: float, b: float, n: int, *marks: tuple[float, float, float]) -> Solid:

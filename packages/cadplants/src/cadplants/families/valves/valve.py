@@ -11,7 +11,7 @@ from cadplants.builder.device import Device, families_of
 from cadplants.builder.params import among, between, chance, nested
 from cadplants.builder.table import Table, outline
 from cadplants.families.valves.drive import BODY, DiaphragmHead, Wheel, drive_of, put_spindle
-from cadplants.family import Build, Family, Model
+from cadplants.family import Model
 from cadplants.flange import face_shell, nut_room, plate_thickness
 from cadplants.mesh_ops import Solid, about_x, extrude, merge, moved, revolve, weld
 from cadplants.modeling_style import ModelingStyle
@@ -21,7 +21,13 @@ from cadplants.standards import FACE_TO_FACE, FLANGES, PIPES, SIZES
 from cadplants.transforms import at, spun
 from cadplants.valve_body import bore_of, flipped
 
-__all__ = ["VALVE_FAMILIES", "Valve", "bolt_circle", "disc_flange", "flanged_body", "valve_family"]
+__all__ = [
+    "VALVE_FAMILIES",
+    "Valve",
+    "bolt_circle",
+    "disc_flange",
+    "flanged_body",
+]
 
 Middle = Sequence[tuple[float, float]]
 
@@ -518,13 +524,6 @@ class GlobeAngle(Valve, name="globe valve/angle", sizes=MID, place="head"):
         put_spindle(t, top, top + 0.05 + radius, 0.005 + 0.1 * radius)
         self.wheel.build(t, 0.04 + 1.3 * radius, top + 0.03 + 0.7 * radius, "")
         return t.model(kind="globe valve")
-
-
-def valve_family(
-    name: str, build: Build, sizes: tuple[int, ...] = SIZES, place: str = "inline", weight: float = 1.0
-) -> Family:
-    """A family of valves."""
-    return Family(name, place, "Valve assembly", "valve", build, sizes, weight=weight)
 
 
 VALVE_FAMILIES = families_of(

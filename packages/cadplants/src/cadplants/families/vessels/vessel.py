@@ -19,7 +19,6 @@ from cadplants.transforms import at, looking, spun
 
 __all__ = ["VESSELS", "Tank", "apart", "head_profile", "level_gauge", "nozzle"]
 
-_BOTH = (-1, 1)
 _HEADS = ("2:1", "torispherical", "hemispherical")
 
 
