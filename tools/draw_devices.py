@@ -60,17 +60,17 @@ def strip(name: str) -> bytes:
 
 
 def parameters(family: Family) -> Iterable[str]:
-    """The parameters of the draws as a table; nothing where the family has none."""
-    drawn = [draw_parameters(family.name, seed, {"dn": dn}) for seed, dn in zip(SEEDS, sizes(family), strict=True)]
+    """The parameters of the draws as a table."""
+    draws = zip(SEEDS, sizes(family), strict=True)
+    drawn = [draw_parameters(family.name, seed, {"dn": dn}, STYLE) for seed, dn in draws]
     rows: dict[str, list[str]] = {}
     about: dict[str, tuple[str, str]] = {}
     for k, one in enumerate(drawn):
-        for name, value, limits, what in one.rows() if one is not None else ():
+        for name, value, limits, what in one.rows():
             rows.setdefault(name, [""] * len(SEEDS))[k] = value
             about.setdefault(name, (limits, what))
-    if rows:
-        body = [[f"`{name}`", *values, *about[name]] for name, values in rows.items()]
-        yield from table(["parameter", *(f"draw {k + 1}" for k in SEEDS), "can be", "what it is"], body)
+    body = [[f"`{name}`", *values, *about[name]] for name, values in rows.items()]
+    yield from table(["parameter", *(f"draw {k + 1}" for k in SEEDS), "can be", "what it is"], body)
 
 
 def page(kind: str, families: Sequence[Family]) -> str:
