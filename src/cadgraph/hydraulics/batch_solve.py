@@ -20,6 +20,7 @@ from cadgraph.hydraulics.laws import quadratic
 from cadgraph.hydraulics.network import Circuit, LinkKind
 from cadgraph.hydraulics.solve import (
     BACKFLOW,
+    LEAST_FLOW,
     LIFT,
     MOST_CHANGES,
     MOST_STEPS,
@@ -190,6 +191,7 @@ class BatchSolver:
         found.cavitating[:] |= starved
         for plant in np.flatnonzero(alone).tolist():
             self._solve_alone(plant, given, last, found)
+        found.flow[np.abs(found.flow) < LEAST_FLOW] = 0.0
         return found
 
     def _solve_alone(self, plant: int, given: Conditions, last: Solutions, found: Solutions) -> None:

@@ -35,6 +35,8 @@ STEP = 1e-8
 """Greatest change of a flow at which the iteration ends [m3/s]; at rest no relative change ever gets small."""
 RELATIVE_STEP = 1e-9
 """Change of all flows, as a share of their sum, at which the iteration ends."""
+LEAST_FLOW = 1e-15
+"""Flow below which there is none [m3/s]: what rounding leaves, on some processors, where everything is shut."""
 BACKFLOW = 1e-9
 """Flow against its way at which an open check valve shuts [m3/s]."""
 LIFT = 1e-6
@@ -206,6 +208,7 @@ class Solver:
         settled = settled and not (turned.any() or more or fewer)
         lacking = {*choked, *map(int, starved), *self._choking(condition, opened, choked, flow, head)[0]}
         shut_in = (pieces.of_node > 0) & ~pieces.circulating[pieces.of_node]
+        flow = np.where(np.abs(flow) < LEAST_FLOW, 0.0, flow)
         return Solution(flow, head, opened, shut_in, tuple(sorted(lacking)), steps, step, settled)
 
     def _kept(self, opened: Bools, choked: Sequence[int], let_go: Counter[int]) -> tuple[tuple[int, ...], _Pieces]:

@@ -112,7 +112,7 @@ def test_only_the_first_guesses_and_facts_are_told_and_long_ones_are_cut():
     parts = parts_of(graphs.graph([part], vocabulary=VOCABULARY))
     assert parts["guesses"][0] == [[0, "pipe", 0.1]] * 5
     assert len(parts["facts"][0]) == 12
-    assert len(parts["facts"][0][0][1]) == 301
+    assert len(parts["facts"][0][0][1]) == 300
     assert "\n" not in parts["facts"][0][0][1]
 
 
