@@ -53,6 +53,7 @@ def test_a_system_makes_a_valid_plant(name):
 
 
 @pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("name", SYSTEMS)
 def test_a_system_makes_valid_plants_of_many_seeds(name):
     for seed in range(2, 10):

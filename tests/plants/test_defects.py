@@ -67,7 +67,9 @@ def test_another_seed_draws_a_defect_otherwise_or_all_alike(name):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("preset", ["pumps", "rack", "skid", "tank", "manifold"])
+@pytest.mark.parametrize(
+    "preset", ["pumps", "skid", "tank", *(pytest.param(big, marks=pytest.mark.long) for big in ("rack", "manifold"))]
+)
 @pytest.mark.parametrize("style", STYLES)
 def test_truths_hold_with_all_defects_together_in_every_style(preset, style):
     plant = drawn("all", style, preset)
