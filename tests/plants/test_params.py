@@ -88,6 +88,7 @@ def test_text_is_understood_and_pieces_have_names_of_their_own():
     ("told", "message"),
     [
         ({"loops": 7}, "loops=7: give 1 to 3"),
+        ({"loops": "many"}, "loops=many: give 1 to 3"),
         ({"end": "welded"}, "end=welded: give plain, threaded"),
         ({"valve": "perhaps"}, "valve=perhaps: give yes or no"),
         ({"form": "square"}, "form=square: give round, pig tail"),
@@ -150,6 +151,13 @@ def test_what_a_style_leaves_out_has_no_parameters():
         assert drawn.hollow is hollow
         assert (drawn.cartridge is not None) is hollow
         assert family.build(15, STYLES[name], Apart(3)).params == drawn.to_json()
+
+
+def test_what_the_style_says_is_not_given():
+    (family,) = families_of(Housing)
+    assert family.build.draw(15, STYLES["bim"], 3, hollow="no").hollow is False
+    with pytest.raises(ValueError, match="hollow=yes: it is no, as the style or the rest of the device has it"):
+        family.build.draw(15, STYLES["bim"], 3, hollow="yes")
 
 
 def test_pieces_of_which_there_are_several_are_read_one_by_one():

@@ -390,6 +390,11 @@ class Params:
             before = SimpleNamespace(**values)
             inner = _below(name, given), _below(name, fixed)
             if name in fixed:
+                if name in given and not _is_told(given[name], fixed[name]):
+                    said = _told(fixed[name])
+                    raise ValueError(
+                        f"{name}={given[name]}: it is {said}, as the style or the rest of the device has it"
+                    )
                 values[name] = fixed[name]
             elif spec.when is not None and not spec.when(before):
                 if name in given and not _is_told(given[name], spec.otherwise):
@@ -453,7 +458,9 @@ def _accepted(name: str, spec: Field, value: Any, before: Any) -> Any:
     try:
         return spec.accept(value, before)
     except (TypeError, ValueError) as error:
-        raise ValueError(f"{name}={value}: {error}") from None
+        # What is no number at all is told what a number could be.
+        said = str(error) if str(error).startswith("give ") else f"give {spec.limits}"
+        raise ValueError(f"{name}={value}: {said}") from None
 
 
 def _with_inner(
