@@ -95,7 +95,7 @@ def test_text_is_understood_and_pieces_have_names_of_their_own():
         ({"lops": 1}, "lops: no parameter; there are dn, loops"),
         ({"valve": True, "knob.radius": 1}, "knob.radius=1: give 0.02 to 0.04"),
         ({"valve": False, "knob.radius": 0.03}, "knob.radius: the device has no knob"),
-        ({"valve": False, "size": 2.0}, "size=2.0: the device has none, as its other parameters are"),
+        ({"valve": False, "size": 2.0}, "size=2.0: it is 0, as other parameters rule it out"),
     ],
 )
 def test_what_can_not_be_is_refused_by_name(told, message):

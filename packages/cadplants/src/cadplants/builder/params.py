@@ -390,22 +390,16 @@ class Params:
             before = SimpleNamespace(**values)
             inner = _below(name, given), _below(name, fixed)
             if name in fixed:
-                if name in given and not _is_told(given[name], fixed[name]):
-                    said = _told(fixed[name])
-                    raise ValueError(
-                        f"{name}={given[name]}: it is {said}, as the style or the rest of the device has it"
-                    )
+                _refuse_others(name, given, fixed[name], "as the style or the rest of the device has it")
                 values[name] = fixed[name]
             elif spec.when is not None and not spec.when(before):
-                if name in given and not _is_told(given[name], spec.otherwise):
-                    raise ValueError(f"{name}={given[name]}: the device has none, as its other parameters are")
+                _refuse_others(name, given, spec.otherwise, "as other parameters rule it out")
                 values[name] = spec.otherwise
             elif name in given:
                 values[name] = _accepted(name, spec, given[name], before)
             elif any(inner) and spec.piece is not None:
-                told, fixed_within = inner
-                said = {**spec.fixed(before), **fixed_within}
-                values[name] = _draw_piece(name, spec.piece, source.of(name), told, said)
+                said = {**spec.fixed(before), **inner[1]}
+                values[name] = _draw_piece(name, spec.piece, source.of(name), inner[0], said)
                 continue
             else:
                 values[name] = spec.sample(source.of(name), before)
@@ -482,6 +476,12 @@ def _draw_piece(
         return kind.draw(source, fixed, **given)
     except ValueError as error:
         raise ValueError(f"{name}.{error}") from None
+
+
+def _refuse_others(name: str, given: Mapping[str, Any], only: Any, why: str) -> None:
+    """Refuses what is given where a parameter can be one thing only."""
+    if name in given and not _is_told(given[name], only):
+        raise ValueError(f"{name}={given[name]}: it is {_told(only)}, {why}")
 
 
 def _is_told(value: Any, item: Any) -> bool:
