@@ -13,6 +13,8 @@ from cadplants.transforms import at, looking, spun
 
 __all__ = [
     "AXES",
+    "BOTH",
+    "CORNERS",
     "along",
     "around",
     "ball",
@@ -29,6 +31,11 @@ __all__ = [
     "turned",
     "waves",
 ]
+
+BOTH = (-1, 1)
+"""Signs of the two sides of what is the same on both."""
+CORNERS = tuple((x, y) for x in BOTH for y in BOTH)
+"""Signs of the four corners of what is the same at all of them."""
 
 AXES: dict[str, Floats] = {
     "z": np.eye(4),

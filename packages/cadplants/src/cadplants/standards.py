@@ -23,6 +23,7 @@ __all__ = [
     "Flange",
     "Gauge",
     "Pipe",
+    "sizes_between",
     "smaller",
 ]
 
@@ -175,3 +176,8 @@ SECTIONS: dict[str, tuple[float, float, float, float]] = {
 def smaller(dn: int, steps: int = 1) -> int:
     """The nominal size some steps down, the least at most."""
     return SIZES[max(0, SIZES.index(dn) - steps)]
+
+
+def sizes_between(least: int = 0, most: int = 10_000) -> tuple[int, ...]:
+    """The nominal sizes from one to another, both among them [mm]."""
+    return tuple(dn for dn in SIZES if least <= dn <= most)

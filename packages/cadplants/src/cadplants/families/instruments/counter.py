@@ -16,13 +16,13 @@ from cadplants.family import Model, Port
 from cadplants.mesh_ops import Solid, extrude, merge, moved
 from cadplants.polygon import rounded_rectangle
 from cadplants.primitives import along, around, box, cylinder, hexagon, ring, turned
-from cadplants.standards import FLANGES, PIPES, SIZES
+from cadplants.standards import FLANGES, PIPES, sizes_between
 from cadplants.transforms import at, looking, spun
 from cadplants.valve_body import bore_of
 
 __all__ = ["COUNTER_BUILDS"]
 
-_SMALL = tuple(dn for dn in SIZES if dn <= 50)
+_SMALL = sizes_between(most=50)
 _CAST, _METAL = ("valve", "gauge", "pump"), "kind of material"
 
 
@@ -103,7 +103,7 @@ class PaddleWheel(FlowMeter, name="flow meter/paddle wheel", sizes=_SMALL):
         return t.model(length, "welded", NAME)
 
 
-class Woltman(FlowMeter, name="flow meter/woltman", sizes=tuple(dn for dn in SIZES if dn >= 40)):
+class Woltman(FlowMeter, name="flow meter/woltman", sizes=sizes_between(40)):
     """A Woltman water meter (EN ISO 4064): a cast body with a bolted insert and its register."""
 
     long: float = between(0.8, 1.6, "its length over 0.2 m / diameter of the pipe")
@@ -126,7 +126,7 @@ class Woltman(FlowMeter, name="flow meter/woltman", sizes=tuple(dn for dn in SIZ
         return t.model(length, kind=NAME)
 
 
-class Displacement(FlowMeter, name="flow meter/displacement", sizes=tuple(dn for dn in SIZES if dn <= 150)):
+class Displacement(FlowMeter, name="flow meter/displacement", sizes=sizes_between(most=150)):
     """A displacement meter (piston, vane, oval gear): a round or oval chamber with bolted covers, a counter on it."""
 
     upright: bool = chance(0.5, "its chamber stands upright")
@@ -165,7 +165,7 @@ class Displacement(FlowMeter, name="flow meter/displacement", sizes=tuple(dn for
         t.add("gauge face", panes)
 
 
-class RotaryGas(FlowMeter, name="flow meter/rotary gas", sizes=tuple(dn for dn in SIZES if 25 <= dn <= 150)):
+class RotaryGas(FlowMeter, name="flow meter/rotary gas", sizes=sizes_between(25, 150)):
     """A rotary gas meter (EN 12480): a ribbed body of two lobes across the line, gear covers, a counter at one end."""
 
     ribbed: bool = chance(0.6, "ribs round its lobes")

@@ -19,7 +19,7 @@ from cadplants.mesh_ops import Solid, about_x, extrude, merge, moved
 from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import rounded_rectangle
 from cadplants.primitives import along, box, cylinder, hexagon, ring, rod, turned
-from cadplants.standards import PIPES, SIZES
+from cadplants.standards import PIPES, SIZES, sizes_between
 from cadplants.transforms import at, spun
 
 __all__ = ["FLOW_BUILDS", "NAME", "FlowMeter", "measuring_tube"]
@@ -204,7 +204,7 @@ class Venturi(FlowMeter, name="flow meter/venturi"):
         return t.model(length, kind=NAME)
 
 
-class Nozzle(FlowMeter, name="flow meter/nozzle", sizes=tuple(dn for dn in SIZES if dn >= 25)):
+class Nozzle(FlowMeter, name="flow meter/nozzle", sizes=sizes_between(25)):
     """A flow nozzle or carrier ring between flanges (ISO 5167-3): a thick ring with two tappings and a cell above."""
 
     thick: float = between(0.04, 0.08, "thickness of the ring", "m")
@@ -321,7 +321,7 @@ class BoxyRemote(FlowMeter, name="flow meter/boxy remote"):
         return t.model(length, kind=NAME)
 
 
-class StraightCoriolis(FlowMeter, name="flow meter/straight coriolis", sizes=tuple(dn for dn in SIZES if dn <= 150)):
+class StraightCoriolis(FlowMeter, name="flow meter/straight coriolis", sizes=sizes_between(most=150)):
     """A straight-tube or slim Coriolis meter: a long case with end cones or a belly, a housing on a neck."""
 
     long: float = between(8, 12, "its length over 0.35 m / radius of the pipe")

@@ -21,7 +21,7 @@ from cadplants.modeling_style import ModelingStyle
 from cadplants.plant import Turning
 from cadplants.polygon import circle, rounded_rectangle
 from cadplants.primitives import along, around, box, cylinder, hexagon, ring, rod, rope, turned
-from cadplants.standards import SIZES
+from cadplants.standards import SIZES, sizes_between
 from cadplants.transforms import arc, at, spun
 from cadplants.valve_body import bore_of
 
@@ -29,7 +29,7 @@ __all__ = ["INSTRUMENTS"]
 
 _SIZES = (0.04, 0.05, 0.063, 0.08, 0.1, 0.16, 0.25)  # m, EN 837-1 nominal sizes of cases
 _SIZE, _DIAL, _HEAD, _WELL = "diameter of its case", "case with its dial", "transmitter", "thermowell"
-_SOME = tuple(dn for dn in SIZES if dn <= 150)
+_SOME = sizes_between(most=150)
 
 
 class _Dial(Params):

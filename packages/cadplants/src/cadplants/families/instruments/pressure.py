@@ -17,7 +17,7 @@ from cadplants.flange import plate_thickness
 from cadplants.mesh_ops import Solid, extrude, merge, moved
 from cadplants.polygon import circle, rounded_rectangle
 from cadplants.primitives import along, around, box, cylinder, dome, hexagon, ring, rod, rope, turned
-from cadplants.standards import SIZES
+from cadplants.standards import sizes_between
 from cadplants.transforms import at, spun
 from cadplants.valve_body import bore_of
 
@@ -265,7 +265,7 @@ class Probe(_Transmitter, name="transmitter/probe"):
 # --- sight glasses ---
 
 
-class BoltedWindows(SightGlass, name="sight glass/bolted windows", sizes=tuple(dn for dn in SIZES if dn <= 150)):
+class BoltedWindows(SightGlass, name="sight glass/bolted windows", sizes=sizes_between(most=150)):
     """A sight glass with two bolted covers, square or round, and inside a flap, a rotor or nothing (DIN 3237)."""
 
     square: bool = chance(0.5, "its covers are square")
@@ -301,7 +301,7 @@ class BoltedWindows(SightGlass, name="sight glass/bolted windows", sizes=tuple(d
         return t.model(length, kind=SIGHT_GLASS)
 
 
-_SMALL = tuple(dn for dn in SIZES if dn <= 50)
+_SMALL = sizes_between(most=50)
 
 
 class Threaded(SightGlass, name="sight glass/threaded", sizes=_SMALL):
@@ -375,7 +375,7 @@ class SightPort(SightGlass, name="sight glass/port", place="head", sizes=(50, 80
         return t.model(kind=SIGHT_GLASS)
 
 
-class Refrigerant(SightGlass, name="sight glass/refrigerant", sizes=tuple(dn for dn in SIZES if dn <= 40)):
+class Refrigerant(SightGlass, name="sight glass/refrigerant", sizes=sizes_between(most=40)):
     """A refrigerant sight glass: a brass block on copper stubs, a bull's eye on top, maybe its cap on a strap."""
 
     capped: bool = chance(0.5, "a cap on a strap")

@@ -13,7 +13,7 @@ from cadplants.family import Model
 from cadplants.flange import plate_thickness
 from cadplants.mesh_ops import merge, moved
 from cadplants.primitives import along, around, box, cylinder, dome, hexagon, ring, rod, turned
-from cadplants.standards import PIPES, SIZES
+from cadplants.standards import PIPES, sizes_between
 from cadplants.transforms import at, spun
 from cadplants.valve_body import bore_of
 
@@ -26,7 +26,7 @@ class SightGlass(Device, place="inline", group="Gauge assembly", label=SIGHT_GLA
     """A sight glass."""
 
 
-class Hygienic(SightGlass, name="sight glass/hygienic", sizes=tuple(dn for dn in SIZES if 20 <= dn <= 100)):
+class Hygienic(SightGlass, name="sight glass/hygienic", sizes=sizes_between(20, 100)):
     """A hygienic sight glass: a bare or caged tube between two ferrules with clamps (DIN 32676), weld ends."""
 
     long: float = between(2.5, 5, "its length over that of its ends / radius of the pipe")
@@ -52,7 +52,7 @@ class Hygienic(SightGlass, name="sight glass/hygienic", sizes=tuple(dn for dn in
         return t.model(length, "welded", SIGHT_GLASS)
 
 
-class Ribbed(SightGlass, name="sight glass/ribbed", sizes=tuple(dn for dn in SIZES if dn <= 150)):
+class Ribbed(SightGlass, name="sight glass/ribbed", sizes=sizes_between(most=150)):
     """A tubular sight glass whose two flanges are one casting: long ribs between them leave windows for the tube."""
 
     long: float = between(2.5, 4.5, "its length over that of its ends / radius of the pipe")

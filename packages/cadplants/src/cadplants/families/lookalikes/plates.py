@@ -8,7 +8,12 @@ from cadgraph.model.scene import Floats
 from cadplants.builder.device import Device, families_of
 from cadplants.builder.params import among, between, chance, given
 from cadplants.builder.table import Table
-from cadplants.families.primitive.shape import FRAME, disc, lying, vessel
+from cadplants.families.primitive.shape import (
+    FRAME,
+    disc,
+    lying,
+    vessel,
+)
 from cadplants.family import Family, Model
 from cadplants.mesh_ops import Solid, extrude, merge, moved
 from cadplants.modeling_style import ModelingStyle

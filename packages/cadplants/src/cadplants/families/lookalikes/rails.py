@@ -10,7 +10,11 @@ from cadgraph.model.scene import Floats
 from cadplants.builder.device import Device, families_of
 from cadplants.builder.params import among, between, chance, several
 from cadplants.builder.table import Table
-from cadplants.families.primitive.shape import FRAME, disc, torus_piece
+from cadplants.families.primitive.shape import (
+    FRAME,
+    disc,
+    torus_piece,
+)
 from cadplants.family import Family, Model
 from cadplants.mesh_ops import Solid, moved
 from cadplants.modeling_style import ModelingStyle

@@ -7,17 +7,22 @@ import numpy as np
 from cadplants.builder.device import Device, families_of
 from cadplants.builder.params import Params, among, between, chance, nested, styled, whole
 from cadplants.builder.table import Table
-from cadplants.families.primitive.shape import cone, disc, lying, sized, spoked
+from cadplants.families.primitive.shape import (
+    cone,
+    disc,
+    lying,
+    spoked,
+)
 from cadplants.family import Family, Model
 from cadplants.mesh_ops import extrude, merge, moved
 from cadplants.polygon import circle
-from cadplants.primitives import box, cylinder, hexagon, ring, rod, turned
+from cadplants.primitives import BOTH, box, cylinder, hexagon, ring, rod, turned
+from cadplants.standards import sizes_between
 from cadplants.transforms import at, spun
 
 __all__ = ["SPINDLES_ALIKE"]
 
 _BODY = "valve body"
-_BOTH = (-1, 1)
 
 
 class _Packing(Params):
@@ -52,7 +57,7 @@ class _Packing(Params):
         plate = extrude(circle(0.7 * wide, 12) * (4.2, 1.3), 0.0, 0.5 * high, (circle(bore, 12),) if bore else ())
         t.add("gland", plate, ring(bore, 0.8 * wide, -0.4 * high, 0.0, n))
         bolt = 0.35 * stem + 0.0015
-        for s in _BOTH if t.style.fasteners != "none" else ():
+        for s in BOTH if t.style.fasteners != "none" else ():
             here = t.at(s * 1.9 * wide)
             here.add("stud", cylinder(bolt, -high, 1.4 * high, 8))
             here.add("nut", hexagon(3.2 * bolt, 0.5 * high, 0.5 * high + 1.6 * bolt))
@@ -69,9 +74,9 @@ class _Yoke(Params):
         """Puts it down between two heights [m]; ``reach``: from the axis to a column."""
         w = 0.16 * reach + 0.002
         if self.round_:
-            columns = [moved(cylinder(0.7 * w, low, high, min(t.n(w), 16)), at(s * reach)) for s in _BOTH]
+            columns = [moved(cylinder(0.7 * w, low, high, min(t.n(w), 16)), at(s * reach)) for s in BOTH]
         else:
-            columns = [box((w, 1.8 * w, high - low), (s * reach, 0, (low + high) / 2)) for s in _BOTH]
+            columns = [box((w, 1.8 * w, high - low), (s * reach, 0, (low + high) / 2)) for s in BOTH]
         bridge = moved(cylinder(reach * 0.5, 0.0, 1.6 * w, t.n(reach)), at(0, 0, high - 1.6 * w))
         across = merge([bridge, box((2 * reach, 1.6 * w, w), (0, 0, high - w))])
         for some in [[one] for one in (*columns, across)] if self.apart else [[*columns, across]]:
@@ -96,7 +101,7 @@ class _Spindle(Device, place="inline", group="Valve assembly", label="valve", bu
     """A valve whose parts stand round its stem."""
 
 
-class GlandInYoke(_Spindle, name="gate valve/gland in yoke", sizes=sized(25, 400), weight=2.0):
+class GlandInYoke(_Spindle, name="gate valve/gland in yoke", sizes=sizes_between(25, 400), weight=2.0):
     """A flanged valve whose stem rises through a gland and a yoke, with studs round its bonnet at times."""
 
     fasteners: str = styled("bolt", "how fasteners are modelled")
@@ -134,7 +139,7 @@ class GlandInYoke(_Spindle, name="gate valve/gland in yoke", sizes=sized(25, 400
         return table.model(length, kind="gate valve")
 
 
-class PackingNut(_Spindle, name="globe valve/packing nut", sizes=sized(15, 50), weight=2.0):
+class PackingNut(_Spindle, name="globe valve/packing nut", sizes=sizes_between(15, 50), weight=2.0):
     """A small screwed valve with a six-sided or round packing gland round a thin stem, and a wheel or a bar."""
 
     length: float = between(4.0, 6.0, "(face to face - 10 mm) / radius of the pipe")
@@ -194,7 +199,7 @@ class SleeveWheel(_Spindle, name="valve/sleeve with spoked wheel", weight=1.5):
         return table.model(length, "welded", "valve")
 
 
-class SleeveBar(_Spindle, name="ball valve/sleeve with bar", sizes=sized(15, 50)):
+class SleeveBar(_Spindle, name="ball valve/sleeve with bar", sizes=sizes_between(15, 50)):
     """A sleeve or a block with a bar: no flanges of its own, the bar along or across the line."""
 
     length: float = between(2.4, 4.0, "(length - 20 mm) / radius of the pipe")

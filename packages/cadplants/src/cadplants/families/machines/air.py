@@ -9,7 +9,6 @@ from cadplants.builder.params import among, between, chance, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.machines.drives import (
     BASES,
-    BOTH,
     LYING,
     PUMP,
     Driven,
@@ -21,12 +20,12 @@ from cadplants.families.machines.drives import (
     driven,
     mouth,
     slab,
-)  # fmt: skip
+)
 from cadplants.family import Model
 from cadplants.mesh_ops import Solid, extrude, merge, moved
 from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import rounded_rectangle
-from cadplants.primitives import along, around, box, cylinder, hexagon, ring, rod, torus, turned
+from cadplants.primitives import BOTH, along, around, box, cylinder, hexagon, ring, rod, torus, turned
 from cadplants.transforms import at, spun
 
 __all__ = ["AIR"]

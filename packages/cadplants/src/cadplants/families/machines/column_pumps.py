@@ -9,7 +9,6 @@ from cadplants.builder.params import among, between, chance, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.machines.drives import (
     BASES,
-    BOTH,
     CASING,
     LYING,
     PUMP,
@@ -22,13 +21,13 @@ from cadplants.families.machines.drives import (
     driven,
     mouth,
     volute,
-)  # fmt: skip
+)
 from cadplants.families.valves.valve import disc_flange, flanged_body
 from cadplants.family import Model, Port
 from cadplants.flange import plate_thickness
 from cadplants.mesh_ops import extrude, merge, moved, tube
 from cadplants.polygon import circle, rounded_rectangle
-from cadplants.primitives import along, around, box, cylinder, hexagon, ring, rod, rope, torus, turned
+from cadplants.primitives import BOTH, along, around, box, cylinder, hexagon, ring, rod, rope, torus, turned
 from cadplants.standards import ELBOW_LONG_RADIUS, smaller
 from cadplants.transforms import at, looking, spun
 

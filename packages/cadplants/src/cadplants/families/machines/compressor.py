@@ -8,7 +8,6 @@ from cadplants.builder.device import Device, families_of
 from cadplants.builder.params import Params, among, between, chance, nested, several, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.machines.drives import (
-    BOTH,
     Driven,
     Motor,
     Train,
@@ -18,11 +17,11 @@ from cadplants.families.machines.drives import (
     driven,
     mouth,
     volute,
-)  # fmt: skip
+)
 from cadplants.family import Model
 from cadplants.mesh_ops import Solid, extrude, merge, moved
 from cadplants.polygon import rounded_rectangle
-from cadplants.primitives import along, around, box, cylinder, dome, hexagon, ring, rope, turned
+from cadplants.primitives import BOTH, along, around, box, cylinder, dome, hexagon, ring, rope, turned
 from cadplants.transforms import at, spun
 
 __all__ = ["COMPRESSORS"]

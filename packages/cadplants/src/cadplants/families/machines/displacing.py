@@ -9,7 +9,6 @@ from cadplants.builder.params import among, between, chance
 from cadplants.builder.table import Table, outline
 from cadplants.families.machines.drives import (
     BASES,
-    BOTH,
     CASING,
     LYING,
     PUMP,
@@ -21,12 +20,12 @@ from cadplants.families.machines.drives import (
     dead_room,
     driven,
     mouth,
-)  # fmt: skip
+)
 from cadplants.families.valves.valve import bolt_circle
 from cadplants.family import Model, Port
 from cadplants.mesh_ops import Solid, extrude, merge, moved
 from cadplants.polygon import rounded_rectangle
-from cadplants.primitives import along, around, ball, box, cylinder, dome, hexagon, ring, rod, rope, torus, turned
+from cadplants.primitives import BOTH, along, around, ball, box, cylinder, dome, hexagon, ring, rod, rope, torus, turned
 from cadplants.standards import smaller
 from cadplants.transforms import at, spun
 

@@ -17,17 +17,16 @@ from cadplants.flange import nut_room, plate_thickness
 from cadplants.mesh_ops import Solid, about_x, extrude, merge, moved
 from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import rounded_rectangle, section_channel, section_i
-from cadplants.primitives import along, around, box, cylinder, hexagon, lofted, ring, rod, rope, torus, turned
+from cadplants.primitives import BOTH, along, around, box, cylinder, hexagon, lofted, ring, rod, rope, torus, turned
 from cadplants.transforms import at, looking, spun
 
 __all__ = [
-    "BASES", "BOTH", "CASING", "GUARDS", "LYING", "MOTORS", "PUMP", "Driven", "Motor", "Pump", "Train",
+    "BASES", "CASING", "GUARDS", "LYING", "MOTORS", "PUMP", "Driven", "Motor", "Pump", "Train",
     "anchors", "base", "corners", "dead_room", "driven", "mouth", "slab", "volute",
 ]  # fmt: skip
 
 CASING = "pump casing"
 PUMP = "Pump unit"
-BOTH = (-1, 1)
 LYING: Floats = spun("y", np.pi / 2) @ spun("z", np.pi)  # a motor's z to x, its x up
 MOTORS = ("cast", "cast", "square", "smooth", "drip", "ex")
 GUARDS = ("hood", "roof", "box", "tube", "mesh", "halves")

@@ -9,11 +9,16 @@ import numpy as np
 from cadplants.builder.device import Device, families_of
 from cadplants.builder.params import Params, Source, among, between, chance, nested, whole
 from cadplants.builder.table import Table, outline
-from cadplants.families.machines.drives import BOTH, Driven, Motor, corners, driven
+from cadplants.families.machines.drives import (
+    Driven,
+    Motor,
+    corners,
+    driven,
+)
 from cadplants.family import Model
 from cadplants.mesh_ops import extrude, moved
 from cadplants.polygon import rounded_rectangle
-from cadplants.primitives import along, around, box, cylinder, hexagon, rod, rope, turned
+from cadplants.primitives import BOTH, along, around, box, cylinder, hexagon, rod, rope, turned
 from cadplants.transforms import at, spun
 
 __all__ = ["FIRED"]

@@ -9,7 +9,6 @@ from cadplants.builder.params import among, between, chance, weighted, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.machines.drives import (
     BASES,
-    BOTH,
     CASING,
     LYING,
     Motor,
@@ -21,12 +20,12 @@ from cadplants.families.machines.drives import (
     driven,
     mouth,
     volute,
-)  # fmt: skip
+)
 from cadplants.families.valves.valve import bolt_circle, flanged_body
 from cadplants.family import Model
 from cadplants.mesh_ops import extrude, merge, moved
 from cadplants.polygon import rounded_rectangle
-from cadplants.primitives import along, around, box, cylinder, hexagon, ring, rod, turned
+from cadplants.primitives import BOTH, along, around, box, cylinder, hexagon, ring, rod, turned
 from cadplants.standards import FLANGES, PIPES, smaller
 from cadplants.transforms import at, spun
 

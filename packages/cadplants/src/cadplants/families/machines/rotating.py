@@ -8,13 +8,21 @@ from cadgraph.model.scene import Floats
 from cadplants.builder.device import Device, families_of
 from cadplants.builder.params import Params, among, between, chance, given, whole
 from cadplants.builder.table import Table, outline
-from cadplants.families.machines.drives import BOTH, CASING, LYING, PUMP, Driven, Pump, corners, driven
+from cadplants.families.machines.drives import (
+    CASING,
+    LYING,
+    PUMP,
+    Driven,
+    Pump,
+    corners,
+    driven,
+)
 from cadplants.families.valves.valve import disc_flange, flanged_body
 from cadplants.family import Model, Port
 from cadplants.flange import plate_thickness
 from cadplants.mesh_ops import Solid, about_x, extrude, merge, moved
 from cadplants.polygon import rounded_rectangle, section_channel
-from cadplants.primitives import along, around, ball, box, cylinder, dome, hexagon, ring, rod, rope, torus, turned
+from cadplants.primitives import BOTH, along, around, ball, box, cylinder, dome, hexagon, ring, rod, rope, torus, turned
 from cadplants.standards import smaller
 from cadplants.transforms import at, looking, spun
 from cadplants.valve_body import bore_of

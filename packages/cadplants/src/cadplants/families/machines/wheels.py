@@ -7,11 +7,16 @@ import numpy as np
 from cadplants.builder.device import Device, families_of
 from cadplants.builder.params import Params, among, between, chance, given, nested, several, whole
 from cadplants.builder.table import Table, outline
-from cadplants.families.machines.drives import BOTH, CASING, PUMP, base, slab
+from cadplants.families.machines.drives import (
+    CASING,
+    PUMP,
+    base,
+    slab,
+)
 from cadplants.family import Model
 from cadplants.mesh_ops import Solid, extrude, merge, moved
 from cadplants.modeling_style import ModelingStyle
-from cadplants.primitives import along, around, box, cylinder, ring, turned
+from cadplants.primitives import BOTH, along, around, box, cylinder, ring, turned
 from cadplants.transforms import at, spun
 
 __all__ = ["WHEELS"]

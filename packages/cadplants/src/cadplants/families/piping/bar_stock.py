@@ -27,13 +27,13 @@ from cadplants.families.piping.shape import (
     prism,
     sized,
     tails,
-    up_to,
 )
 from cadplants.family import Model
 from cadplants.flange import flange, flange_length, plate_thickness
 from cadplants.mesh_ops import merge, moved, tube
 from cadplants.polygon import rounded_rectangle
 from cadplants.primitives import box
+from cadplants.standards import sizes_between
 from cadplants.transforms import at, spun
 
 __all__ = ["SPECIALS"]
@@ -81,7 +81,7 @@ class CrossBlock(TeeBlock, name="cross/bar stock", sizes=SMALL):
     ends: tuple[Tail, ...] = several(tails("open", "cap"), lambda _: 2, _GOES_ON)
 
 
-class SplitFlange(Fitting, name="flange/split", bundle="flange", sizes=up_to(100)):
+class SplitFlange(Fitting, name="flange/split", bundle="flange", sizes=sizes_between(most=100)):
     """A split flange (ISO 6162): two clamp halves behind a collar, four bolts into a square port block."""
 
     lead: float = between(0.05, 0.2, "length of the pipe before it", "m")
@@ -165,7 +165,7 @@ class UnionElbow(Fitting, name="union/elbow", place="end", sizes=SMALL, weight=1
         return t.model()
 
 
-class HygienicBlank(Fitting, name="pipe cap/hygienic", place="end", sizes=up_to(100)):
+class HygienicBlank(Fitting, name="pipe cap/hygienic", place="end", sizes=sizes_between(most=100)):
     """A hygienic blank (ISO 2852): a ferrule on the pipe, a seal, a disc, a clamp of two halves with a wing nut."""
 
     long: float = between(0.5, 1.0, "length of its ferrule, less 12 mm / radius of the pipe")

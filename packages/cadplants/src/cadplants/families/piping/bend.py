@@ -27,7 +27,6 @@ from cadplants.families.piping.shape import (
     prism,
     sized,
     tails,
-    up_to,
 )
 from cadplants.family import Model, Part, placed
 from cadplants.flange import plate_thickness
@@ -35,7 +34,7 @@ from cadplants.mesh_ops import Solid, merge, moved, tube
 from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle
 from cadplants.primitives import ball, box, cylinder, lofted
-from cadplants.standards import FLANGES, PIPES, SIZES
+from cadplants.standards import FLANGES, PIPES, SIZES, sizes_between
 from cadplants.transforms import IDENTITY, at, looking, spun
 
 __all__ = ["BENDS"]
@@ -244,25 +243,25 @@ class _Loop(Fitting):
                 begin = points[k] + reach * after
 
 
-class MitredLoop(_Loop, name="elbow/mitred", sizes=up_to(250)):
+class MitredLoop(_Loop, name="elbow/mitred", sizes=sizes_between(most=250)):
     """A loop of bends cut and welded of pipe."""
 
     bend: Bend = nested(Mitred, "how its bends are made")
 
 
-class BeadedLoop(_Loop, name="elbow/beaded", sizes=up_to(250)):
+class BeadedLoop(_Loop, name="elbow/beaded", sizes=sizes_between(most=250)):
     """A loop of elbows for butt welding (ASME B16.9)."""
 
     bend: Bend = nested(Beaded, "how its bends are made")
 
 
-class PulledLoop(_Loop, name="elbow/pulled", sizes=up_to(80)):
+class PulledLoop(_Loop, name="elbow/pulled", sizes=sizes_between(most=80)):
     """A loop of pulled bends (ASME B16.49)."""
 
     bend: Bend = nested(Pulled, "how its bends are made")
 
 
-class GroovedLoop(_Loop, name="elbow/grooved", sizes=up_to(200, 25)):
+class GroovedLoop(_Loop, name="elbow/grooved", sizes=sizes_between(25, 200)):
     """A loop of grooved elbows (AWWA C606)."""
 
     bend: Bend = nested(Grooved, "how its bends are made")
@@ -274,7 +273,7 @@ class BandedLoop(_Loop, name="elbow/malleable banded", sizes=SMALL):
     bend: Bend = nested(Banded, "how its bends are made")
 
 
-class GluedLoop(_Loop, name="elbow/glued plastic", sizes=up_to(200)):
+class GluedLoop(_Loop, name="elbow/glued plastic", sizes=sizes_between(most=200)):
     """A loop of glued plastic elbows (EN ISO 1452-3)."""
 
     bend: Bend = nested(Glued, "how its bends are made")
@@ -307,7 +306,7 @@ class _Turned(Fitting, place="end"):
         return t.model()
 
 
-class CastTurn(_Turned, name="elbow/cast flanged", sizes=up_to(150)):
+class CastTurn(_Turned, name="elbow/cast flanged", sizes=sizes_between(most=150)):
     """Cast elbows with flanges on a pipe's end (ASME B16.5)."""
 
     bend: Bend = nested(Cast, "how its bends are made")
@@ -385,7 +384,7 @@ class Reducing(Fitting, name="elbow/reducing", place="end", sizes=SIZES[2:]):
         return t.model()
 
 
-class Return(Fitting, name="elbow/return bend", place="end", sizes=up_to(150), weight=1.0):
+class Return(Fitting, name="elbow/return bend", place="end", sizes=sizes_between(most=150), weight=1.0):
     """A coil of pipes side by side joined by return bends of 180 degrees (ASME B16.9), held by flat bars."""
 
     radius: float = between(1.5, 3.2, "of a bend / of the pipe")

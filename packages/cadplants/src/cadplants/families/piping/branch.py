@@ -30,20 +30,18 @@ from cadplants.families.piping.shape import (
     seated,
     sized,
     tails,
-    up_to,
 )
 from cadplants.family import Model
 from cadplants.flange import nut_room, plate_thickness
 from cadplants.mesh_ops import Solid, about_x, extrude, loft, moved, tube, weld
 from cadplants.modeling_style import ModelingStyle
-from cadplants.primitives import ball, cylinder, hexagon, rope
-from cadplants.standards import FLANGES, PIPES, SIZES
+from cadplants.primitives import BOTH, ball, cylinder, hexagon, rope
+from cadplants.standards import FLANGES, PIPES, SIZES, sizes_between
 from cadplants.transforms import at, spun
 from cadplants.valve_body import bore_of
 
 __all__ = ["BRANCHES"]
 
-_BOTH = (-1, 1)
 _LARGE = SIZES[SIZES.index(40) :]
 _OTHER = "nominal size of its branches"
 _GOES_ON = "what goes on from it"
@@ -160,20 +158,20 @@ class SocketTee(_Junction, name="tee/socket block", sizes=SMALL):
     other: int = among(lambda p: (p.dn,), _OTHER, "mm")
 
 
-class GluedTee(_Junction, name="tee/glued plastic", sizes=up_to(200)):
+class GluedTee(_Junction, name="tee/glued plastic", sizes=sizes_between(most=200)):
     """A plastic tee with glued sockets (EN ISO 1452-3), its branch maybe of a smaller size."""
 
     design: str = given("glued", "how its mouths are made")
 
 
-class GroovedTee(_Junction, name="tee/grooved", sizes=up_to(200, 25)):
+class GroovedTee(_Junction, name="tee/grooved", sizes=sizes_between(25, 200)):
     """A grooved tee with its couplings (AWWA C606)."""
 
     design: str = given("grooved", "how its mouths are made")
     other: int = among(lambda p: (p.dn,), _OTHER, "mm")
 
 
-class CastTee(_Junction, name="tee/cast reducing", sizes=up_to(200)):
+class CastTee(_Junction, name="tee/cast reducing", sizes=sizes_between(most=200)):
     """A cast tee with flanges, its branch maybe of a smaller size (ASME B16.1, EN 545)."""
 
     design: str = given("flanged", "how its mouths are made")
@@ -185,13 +183,13 @@ class Lateral(_Junction, name="tee/lateral welded"):
     lean: float = among((0.25, 0.25, 1 / 3), "direction of its branch from the line / half a turn")
 
 
-class CastLateral(Lateral, name="tee/lateral cast", sizes=up_to(200)):
+class CastLateral(Lateral, name="tee/lateral cast", sizes=sizes_between(most=200)):
     """A lateral of 45 or 60 degrees, cast with flanges (ASME B16.1, EN 545)."""
 
     design: str = given("flanged", "how its mouths are made")
 
 
-class PlasticLateral(Lateral, name="tee/lateral plastic", sizes=up_to(200)):
+class PlasticLateral(Lateral, name="tee/lateral plastic", sizes=sizes_between(most=200)):
     """A lateral of 45 or 60 degrees, glued of plastic."""
 
     design: str = given("glued", "how its mouths are made")
@@ -205,19 +203,19 @@ class BandedCross(_Junction, name="cross/malleable banded", sizes=SMALL):
     other: int = among(lambda p: _smaller(p.dn, 2), _OTHER, "mm")
 
 
-class CastCross(BandedCross, name="cross/cast flanged", sizes=up_to(200)):
+class CastCross(BandedCross, name="cross/cast flanged", sizes=sizes_between(most=200)):
     """A cast cross with flanges (ASME B16.1, EN 545)."""
 
     design: str = given("flanged", "how its mouths are made")
 
 
-class GluedCross(BandedCross, name="cross/glued plastic", sizes=up_to(200)):
+class GluedCross(BandedCross, name="cross/glued plastic", sizes=sizes_between(most=200)):
     """A plastic cross with glued sockets (EN ISO 1452-3)."""
 
     design: str = given("glued", "how its mouths are made")
 
 
-class GroovedCross(BandedCross, name="cross/grooved", sizes=up_to(200, 25)):
+class GroovedCross(BandedCross, name="cross/grooved", sizes=sizes_between(25, 200)):
     """A grooved cross with its couplings (AWWA C606)."""
 
     design: str = given("grooved", "how its mouths are made")
@@ -271,7 +269,7 @@ class PulledCollar(Fitting, name="tee/pulled collar", sizes=_LARGE):
         return t.model(round(pitch * self.count, 9), "welded")
 
 
-class BullHead(Fitting, name="tee/bull head", place="end", sizes=up_to(200), weight=1.0):
+class BullHead(Fitting, name="tee/bull head", place="end", sizes=sizes_between(most=200), weight=1.0):
     """A tee on a pipe's end: the line runs into its branch and leaves to both sides."""
 
     design: str = among(("plain", "banded", "socket", "flanged", "glued", "grooved"), "how its mouths are made")
@@ -315,7 +313,7 @@ class Breeches(Fitting, name="tee/breeches", place="end", sizes=_LARGE):
         begin, length = 1.2 * r, 2.2 * small / np.sin(turn) + 0.05
         pieces, fars = [lathe(outline(r, 0.0, r, begin, 0.8 * r, begin + 0.5 * r), n)], []
         path, reach = bend_path(2.2 * small, turn, t.style.bend(3 * small, turn), 0.4 * length)
-        for s in _BOTH:
+        for s in BOTH:
             way = at(0.7 * begin) @ spun("z", s * turn)
             if self.back:
                 pieces.append(moved(tube(path, small, 0.0, n), way @ np.diag([1.0, -s, 1.0, 1.0])))
@@ -498,11 +496,11 @@ class Saddle(_Outlet, name="branch outlet/saddle", bundle="branch outlet", weigh
         ring = hexagon(3.1 * q, top - 0.4 * q, top) if self.flats else cylinder(1.6 * q, top - 0.4 * q, top, n)
         low, high, out = (0.0005, 0.011, outer + 0.012) if self.bolted else (0.0, 0.012, outer + 0.01)
         ear = extrude(_rect(width, 0.03), low, high)
-        ears = [moved(ear, at(0, s * out)) for s in _BOTH]
+        ears = [moved(ear, at(0, s * out)) for s in BOTH]
         place.add("branch outlet", shell, boss, ring, *ears, of=self.metal)
         if self.bolted:
             place.spun("x", np.pi).add("branch outlet", shell, *ears, of=self.metal)
-            for s in _BOTH:
+            for s in BOTH:
                 for x in (-0.35 * width, 0.35 * width):
                     way = at(x, s * (outer + 0.016)) @ UP
                     place.extend(bolting(1, 0.0, 0.008, -0.011, 0.011, t.style, "branch outlet", way))
@@ -510,7 +508,7 @@ class Saddle(_Outlet, name="branch outlet/saddle", bundle="branch outlet", weigh
             a, leg = np.linspace(np.pi, 2 * np.pi, 13), r + 0.006
             bow = np.column_stack([np.zeros(13), leg * np.cos(a), leg * np.sin(a)])
             bolt = rope(np.vstack([[0, -leg, 0.034], bow, [0, leg, 0.034]]), 0.006, 8)
-            nuts = [moved(hexagon(0.019, 0.012, 0.022), at(0, s * leg)) for s in _BOTH]
+            nuts = [moved(hexagon(0.019, 0.012, 0.022), at(0, s * leg)) for s in BOTH]
             for x in (-0.36 * width, 0.36 * width):
                 place.at(x).add("u-bolt", bolt, of="fastener")
                 place.at(x).add("nut", *nuts, own=False)

@@ -22,20 +22,18 @@ from cadplants.families.piping.shape import (
     pipe_x,
     prism,
     sized,
-    up_to,
 )
 from cadplants.family import Model
 from cadplants.flange import plate_thickness
 from cadplants.mesh_ops import Solid, about_x, extrude, merge, moved
 from cadplants.polygon import circle
-from cadplants.primitives import box, cylinder, rod, torus
-from cadplants.standards import SIZES
+from cadplants.primitives import BOTH, box, cylinder, rod, torus
+from cadplants.standards import SIZES, sizes_between
 from cadplants.transforms import IDENTITY, at, spun
 
 __all__ = ["COUPLINGS", "ferrule", "half_band", "hygienic_clamp"]
 
 _ME = "coupling"
-_BOTH = (-1, 1)
 
 
 def half_band(inner: float, outer: float, low: float, high: float, sides: int, turn: float = np.pi) -> Solid:
@@ -89,7 +87,7 @@ class ClampBand(_Coupling, name="coupling/clamp band", sizes=SIZES[3:]):
         wrap = [barrel(outer + thick, low + bead, high - bead, n, outer - 0.0003)]
         bar, lift = 0.1 * r + 0.005, outer + thick + 0.05 * r + 0.004
         side = bar * 1.3 + 0.003
-        wrap += [rod((low + bead, s * side, lift), (high - bead, s * side, lift), bar, 10) for s in _BOTH]
+        wrap += [rod((low + bead, s * side, lift), (high - bead, s * side, lift), bar, 10) for s in BOTH]
         t = t.spun("x", self.roll * np.pi)
         t.add(_ME, *wrap, of="trim")
         for share in (-0.25, 0.25) if self.paired else (0.0,):
@@ -129,7 +127,7 @@ class SleeveBolts(_Coupling, name="coupling/sleeve with bolts", sizes=SIZES[4:])
         return t.model(round(length, 9), "welded")
 
 
-class CamLever(_Coupling, name="coupling/cam lever", sizes=up_to(100), grain="structure"):
+class CamLever(_Coupling, name="coupling/cam lever", sizes=sizes_between(most=100), grain="structure"):
     """A cam and groove coupling (EN 14420-7): an adapter in a coupler with two cam levers and finger rings."""
 
     gripped: bool = among((False, True), "flats for a wrench on its coupler")
@@ -146,7 +144,7 @@ class CamLever(_Coupling, name="coupling/cam lever", sizes=up_to(100), grain="st
             grip = prism(2.7 * r + 0.004, self.flats, 0.0, end, bore, n)
         coupler = lathe(outline(1.2 * r, 0.9 * end, outer, end, outer, end + cup), n, bore)
         ear = (0.3 * cup, 0.35 * r + 0.006, 0.004 + 0.05 * r)
-        ears = [box(ear, (x, s * (outer + 0.12 * r), z * 0.3 * r)) for s in _BOTH for z in _BOTH]
+        ears = [box(ear, (x, s * (outer + 0.12 * r), z * 0.3 * r)) for s in BOTH for z in BOTH]
         t.add(_ME, merge([grip, coupler]), *ears, of="trim")
         a = outline(1.15 * r, end + cup - 0.2 * r, 1.15 * r, length - end, 1.3 * r, length - end, 1.3 * r, length)
         t.add(_ME, lathe(a, n, bore), of="trim")
@@ -157,13 +155,13 @@ class CamLever(_Coupling, name="coupling/cam lever", sizes=up_to(100), grain="st
             box((long, 0.12 * r + 0.003, 0.45 * r), (-0.5 * long, 0.1 * r, 0)),
             moved(finger, at(-long - 0.2 * r, 0.1 * r) @ spun("x", np.pi / 2)),
         ]
-        for s in _BOTH:
+        for s in BOTH:
             flip = np.diag([1.0, float(s), 1.0, 1.0])
             t.at(x, s * (outer + 0.2 * r)).moved(flip).spun("z", -self.lift).add("lever", *lever, own=True)
         return t.model(round(length, 9), "welded")
 
 
-class Claw(_Coupling, name="coupling/claw", sizes=up_to(100), grain="structure"):
+class Claw(_Coupling, name="coupling/claw", sizes=sizes_between(most=100), grain="structure"):
     """A claw coupling (DIN 14301 Storz, or with two claws): two alike halves, each with lugs round its ring."""
 
     tail: float = between(0.9, 1.8, "length of its tails, less 20 mm / radius of the pipe")
@@ -269,7 +267,7 @@ def hygienic_clamp(t: Table, face: float, rim: float, hinged: bool = True) -> No
     t.at(mid, outer + 0.15 * r).add("nut", *wing)
 
 
-class HygienicClamp(_Coupling, name="coupling/hygienic clamp", sizes=up_to(100), grain="structure"):
+class HygienicClamp(_Coupling, name="coupling/hygienic clamp", sizes=sizes_between(most=100), grain="structure"):
     """A hygienic clamp joint (ISO 2852): two ferrules, a seal, a hinged clamp of two halves with a wing nut."""
 
     long: float = between(0.6, 1.2, "length of a ferrule, less 12 mm / radius of the pipe")
@@ -286,7 +284,9 @@ class HygienicClamp(_Coupling, name="coupling/hygienic clamp", sizes=up_to(100),
         return t.model(round(length, 9), "welded")
 
 
-class PlasticCompression(_Coupling, name="coupling/plastic compression", sizes=up_to(100), grain="structure"):
+class PlasticCompression(
+    _Coupling, name="coupling/plastic compression", sizes=sizes_between(most=100), grain="structure"
+):
     """A plastic compression fitting (ISO 17885): a barrel between two conical nuts with coarse ribs."""
 
     nut: float = between(1.5, 2.2, "length of a nut, less 15 mm / radius of the pipe")
@@ -339,8 +339,8 @@ class RepairClamp(_Coupling, name="coupling/repair clamp", sizes=SIZES[4:]):
         t.add("pipe", pipe_x(t.dn, 0.0, length, t.style), own=False)
         t.add(_ME, barrel(top, low, low + width, n, r), of="trim")
         xs = [low + width * (k + 0.5) / count for k in range(count)]
-        bars = [box((width, 0.014, 0.03), (0.5 * length, s * 0.016, top + 0.012)) for s in _BOTH]
-        webs = [box((0.02, 0.02, 0.016), (x, s * 0.03, top + 0.004)) for x in xs for s in _BOTH]
+        bars = [box((width, 0.014, 0.03), (0.5 * length, s * 0.016, top + 0.012)) for s in BOTH]
+        webs = [box((0.02, 0.02, 0.016), (x, s * 0.03, top + 0.004)) for x in xs for s in BOTH]
         t.add(_ME, *bars, *webs, of="trim")
         for x in xs:
             way = at(x, 0, top + 0.017) @ spun("z", np.pi / 2)

@@ -10,7 +10,15 @@ from cadgraph.model.scene import Floats
 from cadplants.builder.device import families_of
 from cadplants.builder.params import among, between, chance, whole
 from cadplants.builder.table import Table, outline
-from cadplants.families.piping.shape import QUARTERS, ROLL, SMALL, Fitting, below, lathe, sized, up_to
+from cadplants.families.piping.shape import (
+    QUARTERS,
+    ROLL,
+    SMALL,
+    Fitting,
+    below,
+    lathe,
+    sized,
+)
 from cadplants.families.valves.threaded import hex_end
 from cadplants.families.valves.valve import bolt_circle, disc_flange, flanged_body
 from cadplants.family import Model
@@ -18,7 +26,7 @@ from cadplants.flange import nut_room, plate_thickness
 from cadplants.mesh_ops import Branch, Solid, about_x, branched, extrude, loft, merge, moved, revolve, tube, weld
 from cadplants.polygon import circle
 from cadplants.primitives import along, around, box, cylinder, hexagon, lofted, ring, torus, turned, waves
-from cadplants.standards import FACE_TO_FACE, PIPES, REDUCER_LENGTH, SIZES, TEE_CENTER_TO_END
+from cadplants.standards import FACE_TO_FACE, PIPES, REDUCER_LENGTH, SIZES, TEE_CENTER_TO_END, sizes_between
 from cadplants.transforms import at, spun
 from cadplants.valve_body import bore_of
 
@@ -153,7 +161,7 @@ class _Strainer(_Fitting, bundle="strainer", grain="structure"):
     """A strainer."""
 
 
-class FlangedY(_Strainer, name="strainer/Y flanged", sizes=up_to(200)):
+class FlangedY(_Strainer, name="strainer/Y flanged", sizes=sizes_between(most=200)):
     """A Y strainer, flanged: a slanting branch downward with a bolted or screwed cap."""
 
     def build(self, t: Table) -> Model:
@@ -339,7 +347,7 @@ class Spectacle(_Fitting, name="blind flange/spectacle", grain="structure"):
         return t.model(round(thick, 6), "wafer")
 
 
-class Hanging(_Fitting, name="hose/hanging", place="end", sizes=up_to(200)):
+class Hanging(_Fitting, name="hose/hanging", place="end", sizes=sizes_between(most=200)):
     """A hose hanging from a pipe's end: a collar, then a curve to the ground; smooth or corrugated."""
 
     reach: float = between(6, 14, "how far it reaches, less 0.1 m / radius of the pipe")

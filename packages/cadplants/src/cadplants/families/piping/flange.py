@@ -24,19 +24,17 @@ from cadplants.families.piping.shape import (
     prism,
     sized,
     tails,
-    up_to,
 )
 from cadplants.family import Model
 from cadplants.flange import flange, flange_length, plate_thickness
 from cadplants.mesh_ops import Solid, merge, moved
 from cadplants.polygon import circle, rounded_rectangle
-from cadplants.primitives import box, cylinder, rod, rope, torus
-from cadplants.standards import FLANGES, PIPES, SIZES
+from cadplants.primitives import BOTH, box, cylinder, rod, rope, torus
+from cadplants.standards import FLANGES, PIPES, SIZES, sizes_between
 from cadplants.transforms import at, spun
 
 __all__ = ["FLANGINGS"]
 
-_BOTH = (-1, 1)
 _LONG = "length, less 40 mm / radius of the pipe"
 
 # One side of a joint: its solids with their names, from the pipe's end at 0 to its face; where the face is; how thick
@@ -281,7 +279,7 @@ class LapJoint(_Pair, name="flange/lap joint"):
     side: Side = nested(Lap, "how its flanges are made")
 
 
-class Threaded(_Pair, name="flange/threaded", sizes=up_to(100)):
+class Threaded(_Pair, name="flange/threaded", sizes=sizes_between(most=100)):
     """Two threaded flanges (ASME B16.5)."""
 
     side: Side = nested(Screwed, "how its flanges are made")
@@ -328,13 +326,13 @@ class HighPressure(_Pair, name="flange/high pressure"):
     seal: Seal = nested(Ring, "its gasket")
 
 
-class Squares(_Pair, name="flange/square", sizes=up_to(100)):
+class Squares(_Pair, name="flange/square", sizes=sizes_between(most=100)):
     """Two square hydraulic flanges (ISO 6164)."""
 
     side: Side = nested(Square, "how its flanges are made")
 
 
-class Ovals(_Pair, name="flange/oval", sizes=up_to(100)):
+class Ovals(_Pair, name="flange/oval", sizes=sizes_between(most=100)):
     """Two oval flanges with two bolts (DIN 2560 practice)."""
 
     side: Side = nested(Oval, "how its flanges are made")
@@ -476,7 +474,7 @@ class HingedLid(_Lid, name="blind flange/hinged", sizes=SIZES[5:]):
         strap = box((thick, y + 0.5 * rim, wide), (plate + 0.5 * thick, 0.5 * y - 0.25 * rim, 0))
         t.add("blind flange", disc, strap)
         ear = (2.6 * plate + 0.02, 0.03 + 0.12 * rim, thick)
-        ears = [box(ear, (-0.1 * plate, y, s * (0.5 * wide + 0.6 * thick))) for s in _BOTH]
+        ears = [box(ear, (-0.1 * plate, y, s * (0.5 * wide + 0.6 * thick))) for s in BOTH]
         leg = (0.9 * plate, y - rim + 0.001, wide + 2.2 * thick)
         t.add("bracket", *ears, box(leg, (-0.55 * plate - 0.002, 0.5 * (rim + y), 0)))
         pin = cylinder(0.006 + 0.02 * rim, -0.75 * wide, 0.75 * wide, 10)
@@ -550,7 +548,7 @@ class Ribbed(_Lid, name="blind flange/ribbed", sizes=SIZES[2:]):
         else:
             pieces.append(lathe(outline(0.6 * rim, plate, 0.55 * rim, 1.5 * plate), n))
             screw = prism(0.1 * rim + 0.008, 6, 1.4 * plate, 2.0 * plate)
-            pieces += [moved(screw, at(0, s * 0.35 * rim)) for s in _BOTH]
+            pieces += [moved(screw, at(0, s * 0.35 * rim)) for s in BOTH]
         if self.eyed:
             eye = torus(0.14 * rim + 0.012, 0.03 * rim + 0.003, 14, 8)
             pieces.append(moved(eye, at(1.9 * plate + 0.14 * rim) @ spun("x", np.pi / 2)))

@@ -25,14 +25,13 @@ from cadplants.family import Model
 from cadplants.flange import plate_thickness
 from cadplants.mesh_ops import Solid, merge, moved
 from cadplants.polygon import circle
-from cadplants.primitives import box, torus, waves
+from cadplants.primitives import BOTH, box, torus, waves
 from cadplants.standards import SIZES
 from cadplants.transforms import at, spun
 
 __all__ = ["FLEXIBLES"]
 
 _ME = "expansion joint"
-_BOTH = (-1, 1)
 _FLIP = np.diag([-1.0, 1.0, 1.0, 1.0])
 _END, _LONG = "length of an end, less {} / radius of the pipe", "length of {}, less {} / radius of the pipe"
 
@@ -122,7 +121,7 @@ class Hinged(_Joint, name="expansion joint/hinged", sizes=SIZES[4:]):
         thick, wide, seat = 0.008 + 0.06 * r, 0.5 * r + 0.02, 0.75 * end
         plate, tip = barrel(outer, seat - thick, seat, n, 0.99 * r), mid + 0.5 * wide
         arms = []
-        for s in _BOTH:
+        for s in BOTH:
             arms.append(box((tip - seat, thick, wide), (0.5 * (tip + seat), s * (outer + 0.5 * thick), 0)))
             stub = (2 * thick, outer - 0.9 * r, wide)
             arms.append(box(stub, (seat - 0.5 * thick, s * 0.5 * (outer + 1.1 * r), 0)))

@@ -8,13 +8,23 @@ from cadgraph.model.scene import Floats
 from cadplants.builder.device import families_of
 from cadplants.builder.params import among, between, given, several, whole
 from cadplants.builder.table import Table, outline
-from cadplants.families.piping.shape import BACK, Fitting, barrel, knurled, lathe, parts_of, pipe_x, prism, sized, up_to
+from cadplants.families.piping.shape import (
+    BACK,
+    Fitting,
+    barrel,
+    knurled,
+    lathe,
+    parts_of,
+    pipe_x,
+    prism,
+    sized,
+)
 from cadplants.family import Model
 from cadplants.flange import flange, flange_length
 from cadplants.mesh_ops import Solid, moved
 from cadplants.polygon import circle
 from cadplants.primitives import box, lofted, rod, rope, torus
-from cadplants.standards import SIZES
+from cadplants.standards import SIZES, sizes_between
 from cadplants.transforms import at, spun
 
 __all__ = ["HOSES"]
@@ -100,7 +110,7 @@ class _Between(Fitting, weight=1.0):
         return t.model(round(length + 2 * lead, 9), "flanged" if self.end == "flange" else "welded")
 
 
-class Braided(_Between, name="hose/braided", sizes=up_to(150)):
+class Braided(_Between, name="hose/braided", sizes=sizes_between(most=150)):
     """A corrugated metal hose under braid with flanges or screwed ends (ISO 10380), straight as at a pump."""
 
     end: str = given("hexagon", _END)
@@ -113,7 +123,7 @@ class Flanged(_Between, name="hose/flanged"):
     end: str = given("flange", _END)
 
 
-class Slack(_Between, name="hose/slack", sizes=up_to(150)):
+class Slack(_Between, name="hose/slack", sizes=sizes_between(most=150)):
     """A rubber hose with cam lever or screwed ends that sags between two pipes."""
 
     sagging: float = given(1.0, "how far it sags / as far as it can")
@@ -121,7 +131,7 @@ class Slack(_Between, name="hose/slack", sizes=up_to(150)):
     skin: str = among(("smooth", "smooth", "spiral"), _SKIN)
 
 
-class Loading(Fitting, name="hose/loading", place="end", sizes=up_to(150), weight=1.0):
+class Loading(Fitting, name="hose/loading", place="end", sizes=sizes_between(most=150), weight=1.0):
     """A loading hose on a pipe's end: it hangs down in a U and comes up again to a mouth, or lies out on the ground."""
 
     end: str = among(("hexagon", "cam lever"), _END)

@@ -19,19 +19,17 @@ from cadplants.families.piping.shape import (
     prism,
     sized,
     swell_room,
-    up_to,
 )
 from cadplants.family import Model
 from cadplants.flange import plate_thickness
 from cadplants.mesh_ops import merge, moved
-from cadplants.primitives import around, box, cylinder, dome, hexagon, rod, torus, turned
-from cadplants.standards import SIZES
+from cadplants.primitives import BOTH, around, box, cylinder, dome, hexagon, rod, torus, turned
+from cadplants.standards import SIZES, sizes_between
 from cadplants.transforms import at, spun
 
 __all__ = ["POTS", "Strainer"]
 
 _ME = "strainer"
-_BOTH = (-1, 1)
 _POT, _LOW = "radius of its pot, less {} / radius of the pipe", "depth of its pot / radius of the pot"
 
 
@@ -59,7 +57,7 @@ class Tee(Strainer, name="strainer/tee", sizes=SIZES[3:]):
         count, thread = 8 if t.dn > 80 else 6, 0.06 * collar + 0.006
         t.extend(bolting(count, 0.86 * collar, thread, -plate, plate + 0.002, t.style, _ME, way))
         a = np.linspace(0, np.pi, 7)
-        for s in _BOTH:
+        for s in BOTH:
             y = np.full(7, s * 0.3 * collar)
             path = np.column_stack([x + 0.05 * np.cos(a), y, high + plate + 0.045 * np.sin(a)])
             t.add(_ME, *(rod(p, q, 0.006, 8) for p, q in zip(path[:-1], path[1:], strict=True)), of="handle")
@@ -69,7 +67,7 @@ class Tee(Strainer, name="strainer/tee", sizes=SIZES[3:]):
         return t.model(round(length, 9))
 
 
-class Basket(Strainer, name="strainer/basket on legs", sizes=up_to(200)[3:]):
+class Basket(Strainer, name="strainer/basket on legs", sizes=sizes_between(most=200)[3:]):
     """A basket strainer on three legs: a tall pot, a lid under swing bolts or a yoke with a hand screw."""
 
     pot: float = between(1.8, 2.6, _POT.format("30 mm"))
@@ -113,13 +111,13 @@ class Basket(Strainer, name="strainer/basket on legs", sizes=up_to(200)[3:]):
         """A yoke over the lid, its beam on a height, its posts from another, and the hand screw in it [m]."""
         beam = box((0.22 * pot, 2.7 * pot, 0.18 * pot), (0, 0, top))
         post = (0.2 * pot, 0.1 * pot, top - low)
-        posts = [box(post, (0, s * 1.3 * pot, 0.5 * (top + low))) for s in _BOTH]
+        posts = [box(post, (0, s * 1.3 * pot, 0.5 * (top + low))) for s in BOTH]
         screw = cylinder(0.07 * pot, lid, top + 0.45 * pot, 10)
         bar = rod((-0.6 * pot, 0, top + 0.4 * pot), (0.6 * pot, 0, top + 0.4 * pot), 0.04 * pot, 8)
         t.add(_ME, beam, *posts, screw, bar, of="handle")
 
 
-class Duplex(Strainer, name="strainer/duplex", sizes=up_to(200)[2:]):
+class Duplex(Strainer, name="strainer/duplex", sizes=sizes_between(most=200)[2:]):
     """A duplex strainer: two pots beside the line, a change-over valve with a lever, lids with T screws."""
 
     pot: float = between(1.6, 2.1, _POT.format("25 mm"))
@@ -139,7 +137,7 @@ class Duplex(Strainer, name="strainer/duplex", sizes=up_to(200)[2:]):
         lid.append(cylinder(0.1 * pot, top, high + 0.8 * pot, 8))
         lid.append(rod((-0.6 * pot, 0, high + 0.75 * pot), (0.6 * pot, 0, high + 0.75 * pot), 0.06 * pot, 8))
         t = t.at(x)
-        for s in _BOTH:
+        for s in BOTH:
             side = t.at(0, s * gap)
             side.add(_ME, turned(shell, n))
             side.add(_ME, *lid)
@@ -152,7 +150,7 @@ class Duplex(Strainer, name="strainer/duplex", sizes=up_to(200)[2:]):
         return t.model(round(length, 9))
 
 
-class DirtSeparator(Strainer, name="strainer/dirt separator", sizes=up_to(200)[3:]):
+class DirtSeparator(Strainer, name="strainer/dirt separator", sizes=sizes_between(most=200)[3:]):
     """A dirt separator: an upright vessel with dished ends across the line, a drain cock, a vent or plug."""
 
     pot: float = between(1.7, 2.3, _POT.format("20 mm"))
@@ -186,7 +184,7 @@ class DirtSeparator(Strainer, name="strainer/dirt separator", sizes=up_to(200)[3
         return t.model(round(length, 9))
 
 
-class SelfCleaning(Strainer, name="strainer/self-cleaning", sizes=up_to(200)[5:]):
+class SelfCleaning(Strainer, name="strainer/self-cleaning", sizes=sizes_between(most=200)[5:]):
     """A self-cleaning strainer: a housing with a bolted head, a gear motor on it and a flush outlet below."""
 
     pot: float = between(1.9, 2.6, _POT.format("40 mm"))

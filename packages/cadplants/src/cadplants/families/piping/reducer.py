@@ -24,7 +24,6 @@ from cadplants.families.piping.shape import (
     pipe_x,
     prism,
     sized,
-    up_to,
 )
 from cadplants.family import Model, Part, placed
 from cadplants.flange import plate_thickness
@@ -32,7 +31,7 @@ from cadplants.mesh_ops import Solid, merge, moved
 from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle
 from cadplants.primitives import box, lofted, rope
-from cadplants.standards import PIPES, SIZES
+from cadplants.standards import PIPES, SIZES, sizes_between
 from cadplants.transforms import at, spun
 from cadplants.valve_body import bore_of
 
@@ -265,7 +264,7 @@ class LongTapers(_ThereAndBack, name="reducer/long taper", sizes=SIZES[1:]):
     taper: Taper = nested(Long, _MAKE)
 
 
-class CastTapers(_ThereAndBack, name="reducer/cast flanged", sizes=up_to(200)[1:]):
+class CastTapers(_ThereAndBack, name="reducer/cast flanged", sizes=sizes_between(most=200)[1:]):
     """Two cast tapers with flanges (ASME B16.1, EN 545)."""
 
     taper: Taper = nested(Cast, _MAKE)
@@ -284,25 +283,25 @@ class ForgedCouplings(_ThereAndBack, name="reducer/forged coupling", sizes=SMALL
     taper: Taper = nested(Stepped, _MAKE)
 
 
-class GluedReducers(_ThereAndBack, name="reducer/glued plastic", sizes=up_to(200)[1:]):
+class GluedReducers(_ThereAndBack, name="reducer/glued plastic", sizes=sizes_between(most=200)[1:]):
     """Two glued plastic reducers (EN ISO 1452-3)."""
 
     taper: Taper = nested(Glued, _MAKE)
 
 
-class Swages(_ThereAndBack, name="reducer/swage nipple", sizes=up_to(200)[1:]):
+class Swages(_ThereAndBack, name="reducer/swage nipple", sizes=sizes_between(most=200)[1:]):
     """Two swage nipples (MSS SP-95)."""
 
     taper: Taper = nested(Swage, _MAKE)
 
 
-class GroovedReducers(_ThereAndBack, name="reducer/grooved", sizes=up_to(200, 40)):
+class GroovedReducers(_ThereAndBack, name="reducer/grooved", sizes=sizes_between(40, 200)):
     """Two grooved reducers (AWWA C606)."""
 
     taper: Taper = nested(Grooved, _MAKE)
 
 
-class EccentricReducers(_ThereAndBack, name="reducer/eccentric flanged", sizes=up_to(200, 40)):
+class EccentricReducers(_ThereAndBack, name="reducer/eccentric flanged", sizes=sizes_between(40, 200)):
     """Two eccentric cones with flat flanges."""
 
     taper: Taper = nested(Eccentric, _MAKE)

@@ -19,7 +19,7 @@ from cadplants.piping import cap
 from cadplants.plant import Assembly
 from cadplants.polygon import circle, rounded_rectangle
 from cadplants.primitives import cylinder, hexagon, ring, turned
-from cadplants.standards import FLANGES, PIPES, SIZES
+from cadplants.standards import FLANGES, PIPES, SIZES, sizes_between
 from cadplants.transforms import IDENTITY, arc, at, spun
 from cadplants.valve_body import bore_of
 
@@ -55,12 +55,11 @@ __all__ = [
     "sized",
     "swell_room",
     "tails",
-    "up_to",
 ]
 
 Outline = Sequence[tuple[float, float]]
 BOLTED = "Connection assembly"
-SMALL = tuple(dn for dn in SIZES if dn <= 50)
+SMALL = sizes_between(most=50)
 
 ENDS = ("open", "cap", "flange", "lid")
 """What the end of a piece of pipe can be."""
@@ -76,11 +75,6 @@ class Fitting(Device, place="inline", group="Pipe assembly", weight=0.5, grain="
     def __init_subclass__(cls, **said: Any) -> None:
         super().__init_subclass__(**said)
         cls.label = cls.name.split("/")[0]
-
-
-def up_to(largest: int, smallest: int = 0) -> tuple[int, ...]:
-    """The nominal sizes from one to another [mm]."""
-    return tuple(dn for dn in SIZES if smallest <= dn <= largest)
 
 
 def below(dn: int, count: int) -> Sequence[int]:

@@ -22,13 +22,12 @@ from cadplants.families.piping.shape import (
     prism,
     sized,
     swell_room,
-    up_to,
 )
 from cadplants.family import Model
 from cadplants.flange import plate_thickness
 from cadplants.mesh_ops import Solid, about_x, extrude, moved, revolve, weld
 from cadplants.primitives import box, cylinder, turned
-from cadplants.standards import FACE_TO_FACE, SIZES
+from cadplants.standards import FACE_TO_FACE, SIZES, sizes_between
 from cadplants.transforms import IDENTITY, at, spun
 
 __all__ = ["STRAINERS"]
@@ -238,7 +237,7 @@ class Foot(Strainer, name="strainer/foot", place="end", sizes=SIZES[2:], weight=
         return outline(a, 0.0, a, sock, wide, sock + 0.5 * r), sock + 0.5 * r
 
 
-class InlineCan(Strainer, name="strainer/inline can", sizes=up_to(200)):
+class InlineCan(Strainer, name="strainer/inline can", sizes=sizes_between(most=200)):
     """A wide inline strainer: a can of larger size between cones, a clamp ring or flanges round its middle."""
 
     wide: float = between(1.7, 2.4, "radius of the can, less 6 mm / of the pipe")

@@ -22,17 +22,14 @@ from cadplants.families.piping.shape import (
     notched,
     prism,
     sized,
-    up_to,
 )
 from cadplants.family import Model
 from cadplants.mesh_ops import Solid, merge, moved
-from cadplants.primitives import box, cylinder, rod, rope, torus
-from cadplants.standards import SIZES
+from cadplants.primitives import BOTH, box, cylinder, rod, rope, torus
+from cadplants.standards import SIZES, sizes_between
 from cadplants.transforms import at, spun
 
 __all__ = ["UNIONS"]
-
-_BOTH = (-1, 1)
 
 
 class _Union(Fitting, bundle="union", weight=1.0, grain="structure"):
@@ -81,7 +78,7 @@ class Forged(_Union, name="union/forged", sizes=SMALL):
         return self.put(t, length, first, ring, second, of="pipe")
 
 
-class Plastic(_Union, name="union/plastic", sizes=up_to(100)):
+class Plastic(_Union, name="union/plastic", sizes=sizes_between(most=100)):
     """A plastic union (EN ISO 1452-3): two glued sockets and a big nut with ribs or flats for the style."""
 
     nut: float = between(0.8, 1.2, "length of its nut, less 15 mm / radius of the pipe")
@@ -98,7 +95,7 @@ class Plastic(_Union, name="union/plastic", sizes=up_to(100)):
         return self.put(t, length, first, ring, second, of="handle")
 
 
-class Dairy(_Union, name="union/dairy", sizes=up_to(100)):
+class Dairy(_Union, name="union/dairy", sizes=sizes_between(most=100)):
     """A dairy union (DIN 11851): a welded liner, a threaded part and a round nut with four or more slots."""
 
     end: float = between(0.5, 1.0, "length of an end, less 10 mm / radius of the pipe")
@@ -115,7 +112,7 @@ class Dairy(_Union, name="union/dairy", sizes=up_to(100)):
         return self.put(t, length, first, merge([slots, face]), second)
 
 
-class Hammer(_Union, name="union/hammer", sizes=up_to(100), weight=0.5):
+class Hammer(_Union, name="union/hammer", sizes=sizes_between(most=100), weight=0.5):
     """A hammer union (API 6A practice): a wing nut with three heavy lugs on a threaded sub."""
 
     lugs: int = among((2, 3, 3, 4), "lugs of its nut")
@@ -395,7 +392,7 @@ class ExpandingPlug(_Cap, name="pipe cap/expanding plug", sizes=SIZES[2:]):
         return t.model()
 
 
-class DustCap(_Cap, name="pipe cap/cam lever", sizes=up_to(100)):
+class DustCap(_Cap, name="pipe cap/cam lever", sizes=sizes_between(most=100)):
     """A cam lever dust cap on an adapter (EN 14420-7), with its two levers and a chain or wire to the pipe."""
 
     def build(self, t: Table) -> Model:
@@ -404,7 +401,7 @@ class DustCap(_Cap, name="pipe cap/cam lever", sizes=up_to(100)):
         adapter = outline(wide, 0.0, wide, 0.5 * long, 1.12 * r, 0.55 * long, 1.12 * r, long)
         t.add("coupling", lathe(adapter, n), of="trim", own=False)
         lid = [lathe(outline(outer, long, outer, long + cup, 0.8 * outer, long + 1.2 * cup), n)]
-        lid += [box((0.4 * cup, 0.3 * r, 0.6 * r), (long + 0.4 * cup, s * outer, 0)) for s in _BOTH]
+        lid += [box((0.4 * cup, 0.3 * r, 0.6 * r), (long + 0.4 * cup, s * outer, 0)) for s in BOTH]
         k = np.linspace(0, 1, 9)
         hang = -1.2 * r - 0.2 * r * k - 0.5 * r * np.sin(np.pi * k)
         lid.append(rope(np.column_stack([0.2 * long + (long + 0.6 * cup) * k, 0 * k, hang]), 0.002, 6))

@@ -10,16 +10,24 @@ from cadgraph.model.scene import Floats
 from cadplants.builder.device import Device, families_of
 from cadplants.builder.params import Params, among, between, chance, nested, several, whole
 from cadplants.builder.table import Table, outline
-from cadplants.families.primitive.shape import cone, disc, dish, lying, pipe_piece, sized, sleeve, torus_piece
+from cadplants.families.primitive.shape import (
+    cone,
+    disc,
+    dish,
+    lying,
+    pipe_piece,
+    sleeve,
+    torus_piece,
+)
 from cadplants.family import Family, Model
 from cadplants.mesh_ops import Solid, loft, merge, moved, revolve, weld
 from cadplants.primitives import ball, cylinder, torus
-from cadplants.standards import ELBOW_LONG_RADIUS, PIPES, REDUCER_LENGTH, TEE_CENTER_TO_END, smaller
+from cadplants.standards import ELBOW_LONG_RADIUS, PIPES, REDUCER_LENGTH, TEE_CENTER_TO_END, sizes_between, smaller
 from cadplants.transforms import arc, at, spun
 
 __all__ = ["PRIMITIVE_FITTINGS"]
 
-_SMALL, _ABOVE_SMALLEST = sized(15, 65), sized(20, 400)
+_SMALL, _ABOVE_SMALLEST = sizes_between(15, 65), sizes_between(20, 400)
 _TAP_RADIUS = 0.03  # m: of a small pipe; outlets sink into it as far as their foot needs
 _SIDES = "sides; 0: round"
 _TURNS = (0.0, np.pi)  # of the arms about the run

@@ -10,10 +10,15 @@ from cadgraph.model.scene import Floats
 from cadplants.builder.device import Device, families_of
 from cadplants.builder.params import Params, among, between, chance, given, nested
 from cadplants.builder.table import Table
-from cadplants.families.primitive.shape import disc, lying, sized, torus_piece
+from cadplants.families.primitive.shape import (
+    disc,
+    lying,
+    torus_piece,
+)
 from cadplants.family import Family, Model
 from cadplants.mesh_ops import merge, moved
 from cadplants.primitives import box, cylinder, ring
+from cadplants.standards import sizes_between
 from cadplants.transforms import at, spun
 
 __all__ = ["PRIMITIVE_INSTRUMENTS"]
@@ -205,7 +210,7 @@ class MeterCylinder(
     place="inline",
     label="flow meter",
     bundle="flow meter",
-    sizes=sized(15, 300),
+    sizes=sizes_between(15, 300),
     weight=2,
 ):
     """A cylinder along the line with a box or a cylinder on a neck."""

@@ -10,12 +10,20 @@ import numpy as np
 from cadplants.builder.device import Device, families_of
 from cadplants.builder.params import Params, Source, among, between, chance, given, nested, several, whole
 from cadplants.builder.table import Table
-from cadplants.families.primitive.shape import Snout, cone, disc, dish, lying, pipe_piece, sized, vessel
+from cadplants.families.primitive.shape import (
+    Snout,
+    cone,
+    disc,
+    dish,
+    lying,
+    pipe_piece,
+    vessel,
+)
 from cadplants.family import Family, Model, Port
 from cadplants.mesh_ops import Solid, moved
 from cadplants.modeling_style import ModelingStyle
 from cadplants.primitives import box, cylinder
-from cadplants.standards import PIPES, smaller
+from cadplants.standards import PIPES, sizes_between, smaller
 from cadplants.transforms import at, looking, spun
 
 __all__ = ["PRIMITIVE_MACHINES"]
@@ -45,7 +53,7 @@ class _Pump(Device, group="Pump unit", label="pump", bundle="pump casing"):
     """A pump of primitives."""
 
 
-class CylindersAndBoxes(_Pump, name="pump/cylinders and boxes", sizes=sized(40, 150), weight=4):
+class CylindersAndBoxes(_Pump, name="pump/cylinders and boxes", sizes=sizes_between(40, 150), weight=4):
     """A pump along x on a base: a flat cylinder or a box with two snouts, a motor, something between them."""
 
     volute: float = between(1.8, 2.6, "(radius of the casing - 30 mm) / of the suction pipe")
@@ -106,7 +114,7 @@ class CylindersAndBoxes(_Pump, name="pump/cylinders and boxes", sizes=sized(40, 
         return t.model(kind="centrifugal pump", ports=ports)
 
 
-class MotorOnLine(_Pump, name="pump/motor on line", place="inline", sizes=sized(15, 150), weight=0.8):
+class MotorOnLine(_Pump, name="pump/motor on line", place="inline", sizes=sizes_between(15, 150), weight=0.8):
     """A cylinder or ball-like cone in the line with a motor upright or level on it."""
 
     length: float = between(1.2, 2.0, "face to face / outside of the flange")

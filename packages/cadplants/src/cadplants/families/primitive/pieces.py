@@ -11,7 +11,15 @@ from cadgraph.model.scene import Floats
 from cadplants.builder.device import Device, families_of
 from cadplants.builder.params import Params, among, between, chance, each, given, nested, several, whole
 from cadplants.builder.table import Table
-from cadplants.families.primitive.shape import FRAME, cone, disc, dish, lying, sleeve, torus_piece
+from cadplants.families.primitive.shape import (
+    FRAME,
+    cone,
+    disc,
+    dish,
+    lying,
+    sleeve,
+    torus_piece,
+)
 from cadplants.family import Family, Model, Port
 from cadplants.mesh_ops import Solid, extrude, merge, moved
 from cadplants.modeling_style import ModelingStyle

@@ -11,7 +11,7 @@ from cadplants.builder.params import Params, among, chance, given
 from cadplants.mesh_ops import Solid, about_x, merge, moved, revolve, tube, weld
 from cadplants.modeling_style import ModelingStyle
 from cadplants.primitives import cylinder, ring, torus, turned
-from cadplants.standards import FLANGES, PIPES, SIZES
+from cadplants.standards import FLANGES, PIPES
 from cadplants.transforms import at
 
 __all__ = [
@@ -22,7 +22,6 @@ __all__ = [
     "dish",
     "lying",
     "pipe_piece",
-    "sized",
     "sleeve",
     "spoked",
     "torus_piece",
@@ -30,11 +29,6 @@ __all__ = [
 ]
 
 FRAME = "Structural element"
-
-
-def sized(low: int, high: int) -> tuple[int, ...]:
-    """The nominal sizes between two."""
-    return tuple(dn for dn in SIZES if low <= dn <= high)
 
 
 def cone(first: float, last: float, low: float, high: float, style: ModelingStyle) -> Solid:

@@ -11,17 +11,21 @@ from cadgraph.model.scene import Floats
 from cadplants.builder.device import Device, families_of
 from cadplants.builder.params import Params, among, between, chance, given, nested, several, spread, whole
 from cadplants.builder.table import Table
-from cadplants.families.primitive.shape import FRAME, disc, lying, torus_piece
+from cadplants.families.primitive.shape import (
+    FRAME,
+    disc,
+    lying,
+    torus_piece,
+)
 from cadplants.family import Family, Model
 from cadplants.mesh_ops import Solid, extrude, moved
 from cadplants.polygon import circle, rounded_rectangle, section_angle, section_channel, section_i
-from cadplants.primitives import bar, box, cylinder, rod, torus
+from cadplants.primitives import BOTH, bar, box, cylinder, rod, torus
 from cadplants.transforms import at, spun
 
 __all__ = ["PRIMITIVE_STEEL"]
 
 Outline = tuple[Floats, tuple[Floats, ...]]
-_BOTH = (-1, 1)
 
 
 def _outline(h: float, form: str) -> Outline:
@@ -473,7 +477,7 @@ class ForkOfPlates(_Steel, name="caster/fork of plates", label="caster", weight=
         wide, plate, n, top = 0.6 * r, 0.06 * r + 0.002, t.n(r), 2.5 * r
         on_axle = at(0, 0, r) @ spun("x", np.pi / 2)
         wheel = moved(cylinder(r, -wide / 2, wide / 2, n), on_axle)
-        cheeks = [box((0.9 * r, plate, 1.7 * r), (0.1 * r, s * (wide / 2 + 1.2 * plate), 1.65 * r)) for s in _BOTH]
+        cheeks = [box((0.9 * r, plate, 1.7 * r), (0.1 * r, s * (wide / 2 + 1.2 * plate), 1.65 * r)) for s in BOTH]
         fork = [*cheeks, box((1.1 * r, wide + 3.4 * plate, plate), (0.1 * r, 0, top))]
         axle = moved(cylinder(0.15 * r, -0.7 * wide, 0.7 * wide, 8), on_axle)
         head = box((2 * r, 1.7 * r, plate), (0, 0, top + 1.3 * plate))

@@ -8,17 +8,20 @@ from cadgraph.model.scene import Floats
 from cadplants.builder.device import Device, families_of
 from cadplants.builder.params import Params, Source, among, between, chance, given, nested, several, whole
 from cadplants.builder.table import Table
-from cadplants.families.primitive.shape import cone, disc, lying, torus_piece
+from cadplants.families.primitive.shape import (
+    cone,
+    disc,
+    lying,
+    torus_piece,
+)
 from cadplants.family import Family, Model
 from cadplants.mesh_ops import Solid, extrude, moved
 from cadplants.polygon import rounded_rectangle
-from cadplants.primitives import ball, bar, box, cylinder, ring, rod
+from cadplants.primitives import BOTH, ball, bar, box, cylinder, ring, rod
 from cadplants.standards import PIPES
 from cadplants.transforms import at, spun
 
 __all__ = ["PRIMITIVE_UTILITIES"]
-
-_BOTH = (-1, 1)
 
 
 class _Utility(Device, group="Electrical and safety", sizes=(15,), grain="fitting"):
@@ -55,9 +58,9 @@ class _Stretch(Params):
             hole = rounded_rectangle(wide - 2 * w, high - 2 * w, 0.0)
             return [bar((0, 0, high / 2), (length, 0, high / 2), rounded_rectangle(wide, high, 0.0), (hole,))]
         if self.form == "tray":
-            walls = [box((length, w, high), (length / 2, s * (wide - w) / 2, high / 2)) for s in _BOTH]
+            walls = [box((length, w, high), (length / 2, s * (wide - w) / 2, high / 2)) for s in BOTH]
             return [box((length, wide, w), (length / 2, 0, w / 2)), *walls]
-        rails = [box((length, 2 * w, high), (length / 2, s * (wide / 2 - w), high / 2)) for s in _BOTH]
+        rails = [box((length, 2 * w, high), (length / 2, s * (wide / 2 - w), high / 2)) for s in BOTH]
         places = np.arange(0.1, length, self.gap)
         return [*rails, *(box((0.03, wide - 4 * w, 0.4 * high), (x, 0, 0.3 * high)) for x in places)]
 

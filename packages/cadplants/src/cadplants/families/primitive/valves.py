@@ -10,18 +10,24 @@ import numpy as np
 from cadplants.builder.device import Device, families_of
 from cadplants.builder.params import Params, Source, among, between, chance, given, nested, whole
 from cadplants.builder.table import Table
-from cadplants.families.primitive.shape import cone, disc, dish, lying, sized, spoked
+from cadplants.families.primitive.shape import (
+    cone,
+    disc,
+    dish,
+    lying,
+    spoked,
+)
 from cadplants.family import Family, Model
 from cadplants.mesh_ops import Solid, merge, moved
 from cadplants.plant import Turning
 from cadplants.primitives import ball, box, cylinder, torus, turned
-from cadplants.standards import FLANGES
+from cadplants.standards import FLANGES, sizes_between
 from cadplants.transforms import at, spun
 
 __all__ = ["PRIMITIVE_VALVES"]
 
 _BODY = "valve body"
-_BIG, _SMALL = sized(25, 400), sized(15, 50)
+_BIG, _SMALL = sizes_between(25, 400), sizes_between(15, 50)
 _WAIST = "radius of the waist / of the ends"
 
 
@@ -382,7 +388,7 @@ class ThinCylinder(
     group="Valve assembly",
     label="valve",
     bundle=_BODY,
-    sizes=sized(40, 400),
+    sizes=sizes_between(40, 400),
     weight=1.5,
 ):
     """A thin cylinder between the flanges, a spindle on it, a box, wheel or bar on top."""

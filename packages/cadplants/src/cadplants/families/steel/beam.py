@@ -10,8 +10,6 @@ from cadplants.builder.draws import number, yes
 from cadplants.builder.params import among, between, chance, nested, whole
 from cadplants.builder.table import Table
 from cadplants.families.steel.shape import (
-    BOTH,
-    CORNERS,
     ROLLED,
     Base,
     Props,
@@ -30,7 +28,7 @@ from cadplants.families.steel.shape import (
 )
 from cadplants.family import Model
 from cadplants.polygon import circle, rounded_rectangle
-from cadplants.primitives import box
+from cadplants.primitives import BOTH, CORNERS, box
 from cadplants.transforms import at, spun
 
 __all__ = ["BEAMS"]

@@ -13,8 +13,6 @@ from cadplants.builder.params import Params, among, between, chance, given, nest
 from cadplants.builder.table import Table
 from cadplants.families.steel.caster import Casters
 from cadplants.families.steel.shape import (
-    BOTH,
-    CORNERS,
     Base,
     Section,
     Structure,
@@ -36,7 +34,7 @@ from cadplants.families.steel.shape import (
 from cadplants.family import Model
 from cadplants.mesh_ops import Solid, moved
 from cadplants.polygon import circle, rounded_rectangle
-from cadplants.primitives import box, cylinder, rod
+from cadplants.primitives import BOTH, CORNERS, box, cylinder, rod
 from cadplants.transforms import at, looking, spun
 
 __all__ = ["BRACES"]

@@ -13,8 +13,6 @@ from cadplants.builder.draws import yes
 from cadplants.builder.params import Params, Source, among, between, chance, given, nested, several, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.steel.shape import (
-    BOTH,
-    CORNERS,
     Structure,
     bar,
     bolts,
@@ -32,7 +30,7 @@ from cadplants.family import Model
 from cadplants.mesh_ops import Solid, merge, moved
 from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle
-from cadplants.primitives import along, box, cylinder, hexagon, ring, rod, turned
+from cadplants.primitives import BOTH, CORNERS, along, box, cylinder, hexagon, ring, rod, turned
 from cadplants.transforms import at, spun
 
 __all__ = ["CASTERS", "Casters", "wheel"]

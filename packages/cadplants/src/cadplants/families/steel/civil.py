@@ -12,7 +12,6 @@ from cadplants.builder.draws import of_form, one_of, yes
 from cadplants.builder.params import among, between, chance, nested, whole
 from cadplants.builder.table import Table
 from cadplants.families.steel.shape import (
-    CORNERS,
     Base,
     Structure,
     bar,
@@ -30,7 +29,7 @@ from cadplants.families.steel.shape import (
 from cadplants.family import Model
 from cadplants.mesh_ops import Solid, extrude, loft, merge, moved, weld
 from cadplants.polygon import circle
-from cadplants.primitives import box, cylinder, ring, turned
+from cadplants.primitives import CORNERS, box, cylinder, ring, turned
 from cadplants.transforms import at, spun
 
 __all__ = ["CIVIL"]

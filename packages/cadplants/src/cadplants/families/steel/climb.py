@@ -12,7 +12,6 @@ from cadplants.builder.table import Table
 from cadplants.families.steel.caster import Casters
 from cadplants.families.steel.floor import panel
 from cadplants.families.steel.shape import (
-    BOTH,
     Structure,
     bar,
     each,
@@ -27,7 +26,7 @@ from cadplants.family import Model
 from cadplants.mesh_ops import Solid, merge, moved, sweep
 from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import rounded_rectangle
-from cadplants.primitives import box, cylinder, ring
+from cadplants.primitives import BOTH, box, cylinder, ring
 from cadplants.transforms import at
 
 __all__ = ["CLIMBS"]

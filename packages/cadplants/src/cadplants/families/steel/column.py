@@ -11,7 +11,6 @@ from cadplants.builder.draws import of_form
 from cadplants.builder.params import Params, among, between, chance, nested
 from cadplants.builder.table import Table
 from cadplants.families.steel.shape import (
-    BOTH,
     Base,
     Structure,
     bar,
@@ -28,7 +27,7 @@ from cadplants.family import Model
 from cadplants.mesh_ops import Solid, extrude, moved
 from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle
-from cadplants.primitives import box, cylinder, turned
+from cadplants.primitives import BOTH, box, cylinder, turned
 from cadplants.transforms import at
 
 __all__ = ["COLUMNS"]

@@ -13,7 +13,6 @@ from cadplants.builder.params import Params, among, between, chance, given, nest
 from cadplants.builder.table import Table
 from cadplants.families.steel.caster import wheel
 from cadplants.families.steel.shape import (
-    BOTH,
     Base,
     Structure,
     bar,
@@ -31,7 +30,7 @@ from cadplants.families.steel.shape import (
 from cadplants.family import Model
 from cadplants.mesh_ops import Solid, extrude, merge, moved
 from cadplants.modeling_style import ModelingStyle
-from cadplants.primitives import along, box, cylinder, dome, ring, rod
+from cadplants.primitives import BOTH, along, box, cylinder, dome, ring, rod
 from cadplants.transforms import at, spun
 
 __all__ = ["FENCES"]

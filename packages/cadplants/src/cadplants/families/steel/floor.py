@@ -13,8 +13,6 @@ from cadplants.builder.params import among, between, chance, nested, whole
 from cadplants.builder.table import Table
 from cadplants.families.steel.caster import Casters
 from cadplants.families.steel.shape import (
-    BOTH,
-    CORNERS,
     Base,
     Structure,
     bar,
@@ -36,7 +34,7 @@ from cadplants.family import Model
 from cadplants.mesh_ops import Solid, extrude, merge, moved
 from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle
-from cadplants.primitives import box, cylinder, ring
+from cadplants.primitives import BOTH, CORNERS, box, cylinder, ring
 from cadplants.transforms import at, spun
 
 __all__ = ["FLOORS", "panel"]

@@ -9,8 +9,6 @@ from cadplants.builder.draws import made, number, of_form, yes
 from cadplants.builder.params import Params, among, between, chance, nested, whole
 from cadplants.builder.table import Table
 from cadplants.families.steel.shape import (
-    BOTH,
-    CORNERS,
     Section,
     Structure,
     each,
@@ -22,7 +20,7 @@ from cadplants.family import Model
 from cadplants.mesh_ops import Solid, extrude, merge, moved, sweep
 from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle, section_angle, section_channel, section_i
-from cadplants.primitives import along, ball, bar, box, cylinder, hexagon, rod, turned
+from cadplants.primitives import BOTH, CORNERS, along, ball, bar, box, cylinder, hexagon, rod, turned
 from cadplants.transforms import at, spun
 
 __all__ = ["FRAMES"]

@@ -10,7 +10,6 @@ from cadplants.builder.draws import of_form, one_of
 from cadplants.builder.params import among, between, chance, whole
 from cadplants.builder.table import Table
 from cadplants.families.steel.shape import (
-    BOTH,
     Structure,
     each,
     few_sides,
@@ -22,7 +21,7 @@ from cadplants.families.steel.shape import (
 from cadplants.family import Model
 from cadplants.mesh_ops import Solid
 from cadplants.polygon import circle
-from cadplants.primitives import box, cylinder, turned
+from cadplants.primitives import BOTH, box, cylinder, turned
 
 __all__ = ["GROUNDS"]
 

@@ -10,7 +10,6 @@ from cadplants.builder.draws import made, of_form, one_of
 from cadplants.builder.params import Params, among, between, chance, nested, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.steel.shape import (
-    BOTH,
     Base,
     Structure,
     bar,
@@ -30,7 +29,7 @@ from cadplants.family import Model
 from cadplants.mesh_ops import Solid, merge, moved, sweep
 from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle
-from cadplants.primitives import along, ball, box, cylinder, dome, ring, rod, torus, turned
+from cadplants.primitives import BOTH, along, ball, box, cylinder, dome, ring, rod, torus, turned
 from cadplants.transforms import at, spun
 
 __all__ = ["RAILS"]

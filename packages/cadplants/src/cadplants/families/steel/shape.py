@@ -16,12 +16,10 @@ from cadplants.builder.table import Table
 from cadplants.mesh_ops import Solid, extrude, lattice, merge, moved, tube
 from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle
-from cadplants.primitives import box, cylinder, hexagon, rope
+from cadplants.primitives import CORNERS, box, cylinder, hexagon, rope
 from cadplants.transforms import at, looking, spun
 
 __all__ = [
-    "BOTH",
-    "CORNERS",
     "ROLLED",
     "Base",
     "Props",
@@ -53,8 +51,6 @@ Rng = np.random.Generator
 Count = Callable[[Any], int]
 T = TypeVar("T")
 Section = tuple[Floats, tuple[Floats, ...]]
-BOTH = (-1, 1)
-CORNERS = ((-1, -1), (-1, 1), (1, -1), (1, 1))
 ROLLED = ("H", "I", "IPN", "U", "RHS", "SHS", "CHS")
 
 

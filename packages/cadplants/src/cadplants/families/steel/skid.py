@@ -11,8 +11,6 @@ from cadplants.builder.draws import number, of_form
 from cadplants.builder.params import Params, Source, among, between, chance, given, nested, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.steel.shape import (
-    BOTH,
-    CORNERS,
     Section,
     Structure,
     bar,
@@ -34,7 +32,7 @@ from cadplants.families.steel.shape import (
 from cadplants.family import Model
 from cadplants.mesh_ops import Solid, moved
 from cadplants.polygon import circle, rounded_rectangle
-from cadplants.primitives import box, cylinder, ring, turned
+from cadplants.primitives import BOTH, CORNERS, box, cylinder, ring, turned
 from cadplants.transforms import at, spun
 
 __all__ = ["SKIDS"]

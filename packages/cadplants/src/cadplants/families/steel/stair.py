@@ -12,8 +12,6 @@ from cadplants.builder.params import among, between, chance, nested, whole
 from cadplants.builder.table import Table
 from cadplants.families.steel.floor import panel
 from cadplants.families.steel.shape import (
-    BOTH,
-    CORNERS,
     Base,
     Structure,
     bar,
@@ -29,7 +27,7 @@ from cadplants.families.steel.shape import (
     spread,
 )
 from cadplants.family import Model
-from cadplants.primitives import box, cylinder, dome, ring
+from cadplants.primitives import BOTH, CORNERS, box, cylinder, dome, ring
 
 __all__ = ["STAIRS"]
 

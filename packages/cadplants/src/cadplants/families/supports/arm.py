@@ -11,8 +11,6 @@ from cadplants.builder.params import among, between, chance, nested, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.supports.clamp import half_band
 from cadplants.families.supports.shape import (
-    BOTH,
-    CORNERS,
     Below,
     Feet,
     Footing,
@@ -36,7 +34,7 @@ from cadplants.families.supports.stand import Bracket, Tie
 from cadplants.family import Model
 from cadplants.mesh_ops import extrude, lattice
 from cadplants.polygon import circle, rounded_rectangle, section_i
-from cadplants.primitives import bar, box, cylinder, hexagon, ring, rod, turned
+from cadplants.primitives import BOTH, CORNERS, bar, box, cylinder, hexagon, ring, rod, turned
 from cadplants.standards import SIZES
 
 __all__ = ["ARMS"]

@@ -8,7 +8,6 @@ from cadplants.builder.device import families_of
 from cadplants.builder.params import among, between, chance, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.supports.shape import (
-    BOTH,
     Feet,
     Fitting,
     Footing,
@@ -24,7 +23,7 @@ from cadplants.families.supports.shape import (
 from cadplants.family import Model
 from cadplants.mesh_ops import Solid, extrude, merge
 from cadplants.polygon import rounded_rectangle
-from cadplants.primitives import along, box, cylinder, hexagon, ring, rod, rope, turned
+from cadplants.primitives import BOTH, along, box, cylinder, hexagon, ring, rod, rope, turned
 
 __all__ = ["BRACKETS"]
 

@@ -10,7 +10,6 @@ from cadplants.builder.device import families_of
 from cadplants.builder.params import Params, among, between, chance, nested
 from cadplants.builder.table import Table
 from cadplants.families.supports.shape import (
-    BOTH,
     Below,
     Fitting,
     Overhead,
@@ -31,13 +30,13 @@ from cadplants.family import Model
 from cadplants.mesh_ops import Solid, extrude, moved
 from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle, section_channel, section_i
-from cadplants.primitives import along, bar, box, cylinder, hexagon, ring
-from cadplants.standards import SIZES
+from cadplants.primitives import BOTH, along, bar, box, cylinder, hexagon, ring
+from cadplants.standards import SIZES, sizes_between
 from cadplants.transforms import IDENTITY, at, spun
 
 __all__ = ["CLAMPS", "add_halves", "half_band"]
 
-_SMALL = tuple(dn for dn in SIZES if dn <= 100)
+_SMALL = sizes_between(most=100)
 _HALF, _QUARTER = spun("x", np.pi), spun("x", np.pi / 2)
 
 

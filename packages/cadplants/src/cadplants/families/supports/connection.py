@@ -11,12 +11,19 @@ from cadgraph.model.scene import Floats
 from cadplants.builder.device import families_of
 from cadplants.builder.params import Params, among, between, chance, given, nested, whole
 from cadplants.builder.table import Table, outline
-from cadplants.families.supports.shape import BOTH, CORNERS, Carrier, Fitting, radius, shuffled, slab_yz, strap
+from cadplants.families.supports.shape import (
+    Carrier,
+    Fitting,
+    radius,
+    shuffled,
+    slab_yz,
+    strap,
+)
 from cadplants.family import Model
 from cadplants.mesh_ops import Solid, about_x, extrude, moved, sweep
 from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle, section_angle, section_channel, section_i
-from cadplants.primitives import along, box, cylinder, hexagon, ring, rod, torus, turned
+from cadplants.primitives import BOTH, CORNERS, along, box, cylinder, hexagon, ring, rod, torus, turned
 from cadplants.transforms import at, spun
 
 __all__ = ["CONNECTIONS"]

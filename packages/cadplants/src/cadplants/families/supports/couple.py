@@ -10,8 +10,6 @@ from cadplants.builder.device import families_of
 from cadplants.builder.params import Params, among, between, chance, given, several, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.supports.shape import (
-    BOTH,
-    CORNERS,
     Fitting,
     add_bolt,
     arc_yz,
@@ -24,7 +22,7 @@ from cadplants.families.supports.shape import (
 from cadplants.family import Model
 from cadplants.mesh_ops import Solid, extrude, merge, moved, tube
 from cadplants.polygon import circle, rounded_rectangle, section_channel, section_i
-from cadplants.primitives import along, bar, box, cylinder, hexagon, ring
+from cadplants.primitives import BOTH, CORNERS, along, bar, box, cylinder, hexagon, ring
 from cadplants.standards import SIZES
 from cadplants.transforms import at, spun
 

@@ -9,8 +9,6 @@ from cadplants.builder.device import families_of
 from cadplants.builder.params import Params, among, between, chance, given, nested, several, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.supports.shape import (
-    BOTH,
-    CORNERS,
     Fitting,
     Section,
     add_bolt,
@@ -22,7 +20,7 @@ from cadplants.families.supports.shape import (
 from cadplants.family import Model
 from cadplants.mesh_ops import extrude, merge
 from cadplants.polygon import circle, rounded_rectangle, section_angle, section_channel, section_i
-from cadplants.primitives import bar, box, cylinder, hexagon, ring
+from cadplants.primitives import BOTH, CORNERS, bar, box, cylinder, hexagon, ring
 from cadplants.transforms import spun
 
 __all__ = ["GUSSETS"]

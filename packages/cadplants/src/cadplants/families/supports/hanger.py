@@ -11,7 +11,6 @@ from cadplants.builder.params import among, between, chance, given
 from cadplants.builder.table import Table, outline
 from cadplants.families.supports.clamp import half_band
 from cadplants.families.supports.shape import (
-    BOTH,
     Feet,
     Overhead,
     Section,
@@ -34,7 +33,7 @@ from cadplants.family import Model
 from cadplants.mesh_ops import Solid, merge, moved
 from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import section_channel, section_i
-from cadplants.primitives import along, around, bar, box, cylinder, hexagon, ring, rod, rope, turned
+from cadplants.primitives import BOTH, along, around, bar, box, cylinder, hexagon, ring, rod, rope, turned
 from cadplants.standards import SIZES
 from cadplants.transforms import spun
 

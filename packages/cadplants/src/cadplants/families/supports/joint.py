@@ -9,11 +9,16 @@ from cadplants.builder.device import families_of
 from cadplants.builder.params import Params, among, between, chance, each, given, several, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.supports.fastener import add_piece, head_solid, nut_solid
-from cadplants.families.supports.shape import BOTH, CORNERS, Fitting, few, strap, upright
+from cadplants.families.supports.shape import (
+    Fitting,
+    few,
+    strap,
+    upright,
+)
 from cadplants.family import Model
 from cadplants.mesh_ops import extrude, moved
 from cadplants.polygon import circle, rounded_rectangle, section_i
-from cadplants.primitives import bar, box, cylinder, dome, ring, rod
+from cadplants.primitives import BOTH, CORNERS, bar, box, cylinder, dome, ring, rod
 from cadplants.transforms import at
 
 __all__ = ["JOINTS"]

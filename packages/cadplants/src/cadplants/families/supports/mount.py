@@ -8,8 +8,6 @@ from cadplants.builder.device import families_of
 from cadplants.builder.params import among, between, chance, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.supports.shape import (
-    BOTH,
-    CORNERS,
     Feet,
     Fitting,
     Footing,
@@ -25,7 +23,7 @@ from cadplants.families.supports.shape import (
 from cadplants.family import Model
 from cadplants.mesh_ops import Solid, extrude, moved
 from cadplants.polygon import circle, rounded_rectangle
-from cadplants.primitives import around, bar, box, cylinder, ring, turned
+from cadplants.primitives import BOTH, CORNERS, around, bar, box, cylinder, ring, turned
 from cadplants.transforms import at, spun
 
 __all__ = ["MOUNTS"]

@@ -31,12 +31,12 @@ from cadplants.families.chance import pick
 from cadplants.mesh_ops import Solid, about_x, extrude, merge, moved, sweep
 from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle, section_angle, section_channel, section_i
-from cadplants.primitives import bar, box, cylinder, dome, hexagon, ring, rope, torus
+from cadplants.primitives import BOTH, CORNERS, bar, box, cylinder, dome, hexagon, ring, rope, torus
 from cadplants.standards import PIPES
 from cadplants.transforms import spun
 
 __all__ = [
-    "BOTH", "CORNERS", "Below", "Carrier", "Feet", "Fitting", "Footing", "Overhead", "Section", "Standing",
+    "Below", "Carrier", "Feet", "Fitting", "Footing", "Overhead", "Section", "Standing",
     "add_bolt", "add_nuts", "add_wall", "arc_yz", "bow", "chances", "eye", "few", "foot_of", "hung", "picks",
     "piece_of", "piecemeal", "radius", "screwed", "section_of", "shuffled", "slab_yz", "standing", "strap", "upright",
 ]  # fmt: skip
@@ -45,8 +45,6 @@ _GROUP = "Connection assembly"
 T = TypeVar("T")
 P = TypeVar("P", bound=Params)
 Point = Sequence[float]
-BOTH = (-1, 1)
-CORNERS = tuple((x, y) for x in BOTH for y in BOTH)
 _DOWN, _QUARTER = spun("x", np.pi), spun("x", np.pi / 2)
 
 

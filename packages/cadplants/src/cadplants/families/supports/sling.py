@@ -12,7 +12,6 @@ from cadplants.builder.table import Table, outline
 from cadplants.families.supports.clamp import half_band
 from cadplants.families.supports.hanger import Hanger, add_eye, add_nut, add_rod, add_upright_clamp
 from cadplants.families.supports.shape import (
-    BOTH,
     Feet,
     Overhead,
     add_bolt,
@@ -29,7 +28,7 @@ from cadplants.families.supports.shape import (
 from cadplants.family import Model
 from cadplants.mesh_ops import Solid, extrude, moved, sweep
 from cadplants.polygon import circle, rounded_rectangle
-from cadplants.primitives import along, box, cylinder, dome, hexagon, rod, rope
+from cadplants.primitives import BOTH, along, box, cylinder, dome, hexagon, rod, rope
 from cadplants.standards import SIZES
 from cadplants.transforms import at, spun
 

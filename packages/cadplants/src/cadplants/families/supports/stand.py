@@ -11,8 +11,6 @@ from cadplants.builder.params import Params, among, between, chance, nested
 from cadplants.builder.table import Table, outline
 from cadplants.families.supports.hanger import roller
 from cadplants.families.supports.shape import (
-    BOTH,
-    CORNERS,
     Below,
     Footing,
     Section,
@@ -36,7 +34,7 @@ from cadplants.family import Model
 from cadplants.mesh_ops import Solid, extrude
 from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import section_i
-from cadplants.primitives import bar, box, cylinder, hexagon, ring, rope, turned
+from cadplants.primitives import BOTH, CORNERS, bar, box, cylinder, hexagon, ring, rope, turned
 from cadplants.standards import SIZES
 from cadplants.transforms import spun
 

@@ -10,7 +10,6 @@ from cadplants.builder.device import families_of
 from cadplants.builder.params import among, between, chance, nested, whole
 from cadplants.builder.table import Table
 from cadplants.families.supports.shape import (
-    BOTH,
     Below,
     Feet,
     Footing,
@@ -30,7 +29,7 @@ from cadplants.families.supports.shape import (
 from cadplants.family import Model
 from cadplants.mesh_ops import extrude, moved
 from cadplants.polygon import circle, rounded_rectangle, section_angle, section_channel, section_i
-from cadplants.primitives import along, bar, box, ring, rope
+from cadplants.primitives import BOTH, along, bar, box, ring, rope
 from cadplants.transforms import at, spun
 
 __all__ = ["U_BOLTS"]

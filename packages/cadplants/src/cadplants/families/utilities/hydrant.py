@@ -8,12 +8,14 @@ from cadplants.builder.device import families_of
 from cadplants.builder.draws import yes
 from cadplants.builder.params import among, between, chance, whole
 from cadplants.builder.table import Table, outline
-from cadplants.families.steel.shape import BOTH, each
+from cadplants.families.steel.shape import (
+    each,
+)
 from cadplants.families.utilities.mounting import Utility, wall
 from cadplants.family import Family, Model
 from cadplants.mesh_ops import Solid, extrude, merge, moved
 from cadplants.polygon import rounded_rectangle
-from cadplants.primitives import along, around, ball, box, cylinder, dome, hexagon, rod, rope, torus, turned
+from cadplants.primitives import BOTH, along, around, ball, box, cylinder, dome, hexagon, rod, rope, torus, turned
 from cadplants.transforms import at, spun
 
 __all__ = ["HYDRANTS"]

@@ -10,12 +10,14 @@ from cadplants.builder.device import families_of
 from cadplants.builder.draws import made, of_form, one_of
 from cadplants.builder.params import Params, among, between, chance, nested, whole
 from cadplants.builder.table import Table, outline
-from cadplants.families.steel.shape import BOTH, each
+from cadplants.families.steel.shape import (
+    each,
+)
 from cadplants.families.utilities.mounting import Back, Utility, beam_over, h_column, hanger, pole, wall
 from cadplants.family import Family, Model
 from cadplants.mesh_ops import Solid, about_x, extrude, merge, moved
 from cadplants.polygon import rounded_rectangle
-from cadplants.primitives import along, around, box, cylinder, dome, hexagon, rod, rope, torus, turned
+from cadplants.primitives import BOTH, along, around, box, cylinder, dome, hexagon, rod, rope, torus, turned
 from cadplants.transforms import at, spun
 
 __all__ = ["LIGHTS"]

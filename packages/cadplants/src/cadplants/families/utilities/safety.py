@@ -8,13 +8,29 @@ from cadplants.builder.device import families_of
 from cadplants.builder.draws import made, of_form, yes
 from cadplants.builder.params import Params, among, between, chance, nested, whole
 from cadplants.builder.table import Table, outline
-from cadplants.families.steel.shape import BOTH, CORNERS, each
+from cadplants.families.steel.shape import (
+    each,
+)
 from cadplants.families.utilities.mounting import Utility
 from cadplants.families.utilities.tray import perforated
 from cadplants.family import Family, Model
 from cadplants.mesh_ops import Solid, about_x, extrude, merge, moved
 from cadplants.polygon import circle, rounded_rectangle
-from cadplants.primitives import along, around, box, cylinder, dome, hexagon, ring, rod, rope, torus, turned
+from cadplants.primitives import (
+    BOTH,
+    CORNERS,
+    along,
+    around,
+    box,
+    cylinder,
+    dome,
+    hexagon,
+    ring,
+    rod,
+    rope,
+    torus,
+    turned,
+)
 from cadplants.transforms import at, spun
 
 __all__ = ["SAFETY"]

@@ -11,11 +11,13 @@ from cadplants.builder.device import families_of
 from cadplants.builder.draws import made, of_form
 from cadplants.builder.params import Params, among, between, chance, given, nested, several, whole
 from cadplants.builder.table import Table, outline
-from cadplants.families.steel.shape import BOTH, each
+from cadplants.families.steel.shape import (
+    each,
+)
 from cadplants.families.utilities.mounting import Utility, beam_over, h_column, hanger, wall
 from cadplants.family import Family, Model
 from cadplants.mesh_ops import Solid, extrude, lattice, merge, moved
-from cadplants.primitives import box, rod, rope
+from cadplants.primitives import BOTH, box, rod, rope
 from cadplants.transforms import at, spun
 
 __all__ = ["TRAYS", "perforated"]

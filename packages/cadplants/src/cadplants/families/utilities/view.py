@@ -9,13 +9,15 @@ from cadplants.builder.device import families_of
 from cadplants.builder.draws import made, number, of_form
 from cadplants.builder.params import Params, among, between, chance, nested, whole
 from cadplants.builder.table import Table, outline
-from cadplants.families.steel.shape import BOTH, each
+from cadplants.families.steel.shape import (
+    each,
+)
 from cadplants.families.utilities.mounting import Back, Utility, beam_over, pole, wall
 from cadplants.family import Family, Model
 from cadplants.mesh_ops import about_x, extrude, merge, moved
 from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle
-from cadplants.primitives import along, around, ball, box, cylinder, dome, ring, rod, rope, turned
+from cadplants.primitives import BOTH, along, around, ball, box, cylinder, dome, ring, rod, rope, turned
 from cadplants.transforms import at, spun
 
 __all__ = ["VIEWS"]

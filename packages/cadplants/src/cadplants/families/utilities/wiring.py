@@ -11,12 +11,14 @@ from cadplants.builder.device import families_of
 from cadplants.builder.draws import made, number, of_form, yes
 from cadplants.builder.params import Params, among, between, chance, given, whole
 from cadplants.builder.table import Table, outline
-from cadplants.families.steel.shape import BOTH, each
+from cadplants.families.steel.shape import (
+    each,
+)
 from cadplants.families.utilities.mounting import Utility, beam_over, h_column, pole, strut, wall
 from cadplants.family import Family, Model
 from cadplants.mesh_ops import extrude, merge, moved
 from cadplants.polygon import rounded_rectangle
-from cadplants.primitives import along, box, cylinder, hexagon, ring, rod, rope, torus
+from cadplants.primitives import BOTH, along, box, cylinder, hexagon, ring, rod, rope, torus
 from cadplants.transforms import at, spun
 
 __all__ = ["WIRING"]

@@ -16,7 +16,7 @@ from cadplants.families.valves.actuation_hand import Handlever, Handwheel, cylin
 from cadplants.families.valves.drive import BODY, driven
 from cadplants.mesh_ops import merge, moved
 from cadplants.polygon import circle, rounded_rectangle
-from cadplants.primitives import along, box, cylinder, hexagon, rod, turned
+from cadplants.primitives import BOTH, along, box, cylinder, hexagon, rod, turned
 from cadplants.transforms import at, spun
 
 __all__ = [
@@ -25,7 +25,6 @@ __all__ = [
     "operator",
 ]
 
-_BOTH = (-1, 1)
 _MOUNTS = ("bent deep", "bent", "plates", "pillars")
 _ABOUT_MOUNT = "bracket between valve and actuator"
 _ABOUT_TURN = "which way it looks"
@@ -38,12 +37,12 @@ def _put_mount(t: Table, half: float, tall: float, form: str) -> None:
     solids = [box((2 * half, 1.6 * half, thick), (0, 0, z)) for z in (thick / 2, tall - thick / 2)]
     if form == "pillars":
         pillar = cylinder(0.16 * half, 0.0, tall, 10)
-        solids += [moved(pillar, at(a * 0.75 * half, b * 0.6 * half)) for a in _BOTH for b in _BOTH]
+        solids += [moved(pillar, at(a * 0.75 * half, b * 0.6 * half)) for a in BOTH for b in BOTH]
     elif form == "plates":
-        solids += [box((thick, 1.6 * half, tall), (s * 0.95 * half, 0, tall / 2)) for s in _BOTH]
+        solids += [box((thick, 1.6 * half, tall), (s * 0.95 * half, 0, tall / 2)) for s in BOTH]
     else:
         deep = (1.6 if form == "bent deep" else 1.0) * half
-        solids += [box((2 * half, thick, tall), (0, s * 0.5 * deep, tall / 2)) for s in _BOTH]
+        solids += [box((2 * half, thick, tall), (0, s * 0.5 * deep, tall / 2)) for s in BOTH]
     t.bundled(BODY).add("yoke", *solids, of="steel")
 
 
@@ -90,7 +89,7 @@ class _Rack(Params):
         else:
             section = circle(1.1 * half, t.n(half, 16))
         solids = [along("x", slab(section, -reach, reach), 0, 0, half)]
-        caps = [(s, f, w) for s in _BOTH for f, w in ((1.04, 0.3 * half), (0.75, 0.45 * half))]
+        caps = [(s, f, w) for s in BOTH for f, w in ((1.04, 0.3 * half), (0.75, 0.45 * half))]
         solids += [along("x", slab(section * f, *span(s * reach, s * (reach + w))), 0, 0, half) for s, f, w in caps]
         solids.append(box((0.9 * half, 0.3 * half, 0.7 * half), (0, 1.2 * half, half)))
         solids.append(cylinder(0.7 * half, -0.02 * half, 0.3 * half, 16))
@@ -128,7 +127,7 @@ class _Scotch(Params):
         square = rounded_rectangle(2.2 * wide, 2.2 * wide, 0.2 * wide, 2)
         cylinder_ = [along("x", turned(outline(wide, 0, wide, reach), n), x, 0, z)]
         cylinder_ += [along("x", slab(square, low, low + 0.12 * half), x, 0, z) for low in (0.0, reach)]
-        for y, up in ((a * 0.95 * wide, z + b * 0.95 * wide) for a in _BOTH for b in _BOTH):
+        for y, up in ((a * 0.95 * wide, z + b * 0.95 * wide) for a in BOTH for b in BOTH):
             cylinder_.append(rod((x, y, up), (1.4 * half + reach, y, up), 0.06 * half, 6))
         solids += cylinder_
         if self.other == "cylinder":
@@ -162,7 +161,7 @@ class _Vertical(Params):
         ports = [rod((0, 0.8 * w * half, z * tall), (0, 1.4 * half, z * tall), 0.007, 8) for z in (0.3, 0.7)]
         can = turned([(x * half, z * tall) for x, z in side], n)
         t.bundled("actuator").add("actuator", moved(merge([can, *ports]), at(0, 0, low)), of="clamp")
-        legs = [box((0.25 * half, 1.2 * half, low), (s * 0.6 * half, 0, low / 2)) for s in _BOTH]
+        legs = [box((0.25 * half, 1.2 * half, low), (s * 0.6 * half, 0, low / 2)) for s in BOTH]
         plates = [cylinder(0.85 * half, low - 0.004, low + 0.003, n), cylinder(0.8 * half, 0.0, 0.004, n)]
         t.bundled(BODY).add("yoke", *legs, *plates, of="clamp")
         put_stem(t, 0.0, low, 0.16 * half)
@@ -197,7 +196,7 @@ class _MotorBox(Params):
             rib = (0.06 * half, 2.3 * deep, 0.35 * tall)
             solids += [box(rib, (s * half, 0, 0.4 * tall)) for s in np.linspace(-0.8, 0.8, 5)]
         gland = hexagon(0.022, 1.05 * half, 1.1 * half + 0.025)
-        solids += [along("-x", gland, 0, s * 0.4 * deep, 0.45 * tall) for s in _BOTH]
+        solids += [along("-x", gland, 0, s * 0.4 * deep, 0.45 * tall) for s in BOTH]
         t.bundled("actuator").add("actuator", *solids)
         put_indicator(t.at(0.3 * half, 0, tall + 0.15 * half), 0.4 * half, self.indicator)
         if self.wheeled:

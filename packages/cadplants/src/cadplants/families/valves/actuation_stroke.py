@@ -16,7 +16,7 @@ from cadplants.families.valves.actuation_hand import Handwheel, scaled, slab
 from cadplants.families.valves.drive import BODY, driven
 from cadplants.mesh_ops import Solid, merge, moved, sweep
 from cadplants.polygon import circle, rounded_rectangle
-from cadplants.primitives import along, around, box, cylinder, dome, hexagon, ring, rod, rope, turned
+from cadplants.primitives import BOTH, along, around, box, cylinder, dome, hexagon, ring, rod, rope, turned
 from cadplants.transforms import at, spun
 
 __all__ = [
@@ -28,7 +28,6 @@ __all__ = [
     "screw_of",
 ]
 
-_BOTH = (-1, 1)
 _ABOUT_STEM = "form of the stem"
 _YOKES = ("arched", "waisted", "pillars", "window frame", "flat bars", "slotted tube")
 
@@ -68,12 +67,12 @@ class Yoke(Params):
             solids = [frame, foot, top]
         elif self.form == "flat bars":
             leg = (0.08 * half + 0.004, 0.5 * half, tall)
-            solids = [moved(box(leg, (s * 0.72 * half, 0, tall / 2)), spun("z", np.pi / 2)) for s in _BOTH]
+            solids = [moved(box(leg, (s * 0.72 * half, 0, tall / 2)), spun("z", np.pi / 2)) for s in BOTH]
             solids.append(box((0.6 * half, 1.6 * half, 1.5 * plate), (0, 0, tall - 0.75 * plate)))
             solids.append(box((0.9 * half, 1.7 * half, plate), (0, 0, plate / 2)))
         else:
             solids = []
-            for s in _BOTH:
+            for s in BOTH:
                 a = np.linspace(-0.8, 0.8, 7) + s * np.pi / 2
                 arc = np.column_stack([np.cos(a), np.sin(a)]) * half
                 solids.append(slab(np.vstack([0.85 * arc, 0.7 * arc[::-1]]), 0.5 * plate, tall - plate))

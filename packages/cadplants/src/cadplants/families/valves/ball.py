@@ -28,15 +28,14 @@ from cadplants.families.valves.valve import Valve
 from cadplants.family import Model
 from cadplants.mesh_ops import Solid, about_x, merge, moved, revolve, weld
 from cadplants.modeling_style import ModelingStyle
-from cadplants.primitives import along, around, box, cylinder, hexagon, ring, rod, turned
-from cadplants.standards import FACE_TO_FACE, PIPES, SIZES
+from cadplants.primitives import BOTH, along, around, box, cylinder, hexagon, ring, rod, turned
+from cadplants.standards import FACE_TO_FACE, PIPES, sizes_between
 from cadplants.transforms import at, spun
 
 __all__ = [
     "BALLS", "BallInside", "ClampedEnds", "StemTop", "ferrule", "part_ring",
 ]  # fmt: skip
 
-_BOTH = (-1, 1)
 _TURNS = (0.0, 0.0, np.pi / 4, np.pi / 2)
 _ABOUT_TURN = "of its ball, from open"
 
@@ -97,7 +96,7 @@ def _inside() -> Any:
 _HEAVY = ("worm", "worm", "scotch", "rack", "electrohydraulic", "multi-turn", "lever", "bevel")
 
 
-class Trunnion(_Ball, name="ball valve/trunnion", sizes=tuple(dn for dn in SIZES if dn >= 50)):
+class Trunnion(_Ball, name="ball valve/trunnion", sizes=sizes_between(50)):
     """A trunnion ball valve in three bolted pieces: barrel, two end adapters, trunnion cap, drain, vent (API 6D)."""
 
     long: float = between(1.05, 1.25, "length / of other ball valves")
@@ -123,19 +122,19 @@ class Trunnion(_Ball, name="ball valve/trunnion", sizes=tuple(dn for dn in SIZES
         barrel = outline(lip, a, lip, a + split, big, a + split, big, b - split, lip, b - split, lip, b)
         if self.swollen:
             barrel = outline(lip, a, 1.03 * lip, x, lip, b)
-        rims = [cylinder(lip, *span(x + s * half, x + s * (half + split)), n) for s in _BOTH]
+        rims = [cylinder(lip, *span(x + s * half, x + s * (half + split)), n) for s in BOTH]
         cap = [cylinder(0.55 * big, -1.15 * big, -0.8 * big, n), cylinder(0.7 * big, -1.25 * big, -1.13 * big, n)]
         drain = hexagon(0.024, 0.9 * big, 1.1 * big)
-        below = merge([*cap, *(along("y", drain, 0, 0, s * 0.4 * big) for s in _BOTH)])
+        below = merge([*cap, *(along("y", drain, 0, 0, s * 0.4 * big) for s in BOTH)])
         solids = [ended(self.dn, t.style, length, middle, "flanged"), moved(below, at(x)), *map(about_x, rims)]
         if self.footed:
             foot = (0.4 * half, 1.5 * big, 0.5 * big)
-            solids += [box(foot, (x + s * 0.6 * half, 0, -1.15 * big)) for s in _BOTH]
+            solids += [box(foot, (x + s * 0.6 * half, 0, -1.15 * big)) for s in BOTH]
         t.add("valve body", *solids)
         t.add("valve body", about_x(turned(barrel, n)))
         far, nut = 1.6 * split, 0.02 + 0.05 * radius
         bolt = [cylinder(0.09 * split + 0.004, a - far, b + far, 8)]
-        bolt += [hexagon(nut, *span(x + s * (half + split), x + s * (half + far))) for s in _BOTH]
+        bolt += [hexagon(nut, *span(x + s * (half + split), x + s * (half + far))) for s in BOTH]
         t.add("bolt", about_x(around(merge(bolt), max(6, min(10, 2 * int(np.pi * lip / 0.05))), 0.9 * lip)))
         high, t = max(1.35 * big, 0.5 * size.outer) + 0.03, t.at(x)
         self.put_top(t, 0.8 * big, high, 1.4 * radius, 1.5 * radius)
@@ -202,7 +201,7 @@ class FullyWelded(_Ball, name="ball valve/fully welded"):
         else:
             half, end = 1.2 * radius, 1.05 * radius
             middle = outline(end, x - half - 0.6 * radius, big, x - half, big, x + half, end, x + half + 0.6 * radius)
-        places = [x + s * 0.5 * radius for s in _BOTH]
+        places = [x + s * 0.5 * radius for s in BOTH]
         seams = [about_x(ring(0.9 * big, big + 0.003, z - 0.004, z + 0.004, n)) for z in places]
         t.add("valve body", ended(self.dn, t.style, length, middle, "butt"), *seams)
         reach = big + (self.reach if self.extended else 0.04 + 0.3 * radius)
@@ -212,7 +211,7 @@ class FullyWelded(_Ball, name="ball valve/fully welded"):
         t.add("valve bonnet", turned(tube, n))
         if reach > big + 0.2:
             vents, low = [], reach - 0.09
-            for side in (s * (boss + 0.02) for s in _BOTH):
+            for side in (s * (boss + 0.02) for s in BOTH):
                 vents.append(rod((side, 0, 0.8 * big), (side, 0, low), 0.007, 8))
                 vents.append(
                     moved(merge([hexagon(0.024, 0.0, 0.04), cylinder(0.009, 0.0, 0.055, 8)]), at(side, 0, low))
@@ -225,7 +224,7 @@ class FullyWelded(_Ball, name="ball valve/fully welded"):
         return t.model(round(length, 6), "welded", "ball valve")
 
 
-class Segment(_Ball, name="ball valve/segment", sizes=tuple(dn for dn in SIZES if dn >= 25)):
+class Segment(_Ball, name="ball valve/segment", sizes=sizes_between(25)):
     """A V-segment control ball valve: a short body, flangeless or flanged, shaft off the middle, an actuator."""
 
     flanged: bool = chance(0.4, "it has flanges where there is room for them")
@@ -261,13 +260,13 @@ class Segment(_Ball, name="ball valve/segment", sizes=tuple(dn for dn in SIZES i
             big, a = 1.12 * bore, np.linspace(-0.75, 0.75, 9)
             arc = np.column_stack([np.cos(a), np.sin(a)]) * big
             cup = part_turned(np.vstack([arc, 0.85 * arc[::-1]]), -0.8, 0.8, 8)
-            pins = [cylinder(0.3 * boss, *span(s * 0.55 * big, s * 1.05 * big), 10) for s in _BOTH]
+            pins = [cylinder(0.3 * boss, *span(s * 0.55 * big, s * 1.05 * big), 10) for s in BOTH]
             t.add("valve ball", moved(cup, spun("z", self.turn)), *pins)
         self.operator.build(t.at(0, 0, high + 0.02))
         return t.model(round(length, 6), "flanged" if flanged else "wafer", "control valve")
 
 
-class WaferBall(_Ball, name="ball valve/wafer", sizes=tuple(dn for dn in SIZES if dn <= 150)):
+class WaferBall(_Ball, name="ball valve/wafer", sizes=sizes_between(most=150)):
     """A compact wafer ball valve between two flanges: a round or lugged disc barely longer than its ball (DIN 3357)."""
 
     long: float = between(1.5, 1.9, "length / radius of the pipe")

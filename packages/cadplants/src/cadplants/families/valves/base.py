@@ -5,17 +5,10 @@ from __future__ import annotations
 from cadplants.builder.table import Table
 from cadplants.family import Model, Part
 from cadplants.mesh_ops import about_x
-from cadplants.standards import SIZES
 
-__all__ = ["BOTH", "HOLLOW", "lying", "sized", "standing"]
+__all__ = ["HOLLOW", "lying", "standing"]
 
-BOTH = (-1, 1)
 HOLLOW = "whether insides are modelled"
-
-
-def sized(least: int = 0, most: int = 10_000) -> tuple[int, ...]:
-    """The nominal sizes between two [mm]."""
-    return tuple(dn for dn in SIZES if least <= dn <= most)
 
 
 def lying(t: Table, kind: str) -> Model:

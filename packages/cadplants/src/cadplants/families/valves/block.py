@@ -9,7 +9,9 @@ import numpy as np
 from cadplants.builder.device import families_of
 from cadplants.builder.params import among, between, chance, nested
 from cadplants.builder.table import Table, outline
-from cadplants.families.valves.base import BOTH, lying, sized
+from cadplants.families.valves.base import (
+    lying,
+)
 from cadplants.families.valves.drive import Wheel, drive_of, put_spindle
 from cadplants.families.valves.parts import SMALL, bend, cover, hub_radius, threaded_run
 from cadplants.families.valves.valve import Valve, disc_flange, flanged_body
@@ -17,8 +19,8 @@ from cadplants.family import Model
 from cadplants.flange import plate_thickness
 from cadplants.mesh_ops import Solid, extrude, moved
 from cadplants.polygon import rounded_rectangle
-from cadplants.primitives import along, around, ball, box, cylinder, hexagon, ring, rod, rope, turned
-from cadplants.standards import FACE_TO_FACE, PIPES
+from cadplants.primitives import BOTH, along, around, ball, box, cylinder, hexagon, ring, rod, rope, turned
+from cadplants.standards import FACE_TO_FACE, PIPES, sizes_between
 from cadplants.transforms import at
 
 __all__ = ["BLOCKS"]
@@ -43,7 +45,7 @@ def _swollen(t: Table, length: float, wide: float) -> Solid:
     return flanged_body(t.dn, t.style, length, middle)
 
 
-class BlockBleed(Valve, name="ball valve/double block and bleed", sizes=sized(15, 80)):
+class BlockBleed(Valve, name="ball valve/double block and bleed", sizes=sizes_between(15, 80)):
     """A double block and bleed valve in one flanged body (API 6D short): two levers, a bleed needle between."""
 
     long: float = between(5.5, 7.5, _LONG)
@@ -80,7 +82,7 @@ class BlockBleed(Valve, name="ball valve/double block and bleed", sizes=sized(15
         return t.model(length, kind="ball valve")
 
 
-class FlangedBalancing(Valve, name="globe valve/balancing flanged", sizes=sized(25, 200)):
+class FlangedBalancing(Valve, name="globe valve/balancing flanged", sizes=sizes_between(25, 200)):
     """A flanged balancing valve (EN 558 series 1): slanting or upright bonnet, digit wheel, test points."""
 
     tilt: float = among((0.0, 0.6, 0.75), "of the bonnet, downstream", "rad")
@@ -156,7 +158,7 @@ class Fusible(Valve, name="shut-off valve/fusible link", sizes=SMALL):
         return t.model(round(length, 6), "welded", "shut-off valve")
 
 
-class QuickOpening(Valve, name="gate valve/quick opening", sizes=sized(15, 100)):
+class QuickOpening(Valve, name="gate valve/quick opening", sizes=sizes_between(15, 100)):
     """A quick-opening gate or blow-off valve: sliding stem through a bonnet, a hand lever on links about a fulcrum."""
 
     flat: bool = among((False, True), "a flat chest under a square cover")
@@ -223,7 +225,7 @@ class Landing(Valve, name="globe valve/fire landing", place="head", sizes=(50, 6
         return lying(t, "globe valve")
 
 
-class TankBottom(Valve, name="tank valve/flush bottom", place="head", sizes=sized(25, 200)):
+class TankBottom(Valve, name="tank valve/flush bottom", place="head", sizes=sizes_between(25, 200)):
     """A flush tank-bottom valve (DIN 28137 type): pad flange, disc in its mouth, slanting outlet, stem."""
 
     angle: float = among((0.785, 1.047), "of the outlet from the tank's axis", "rad")
@@ -259,7 +261,7 @@ class TankBottom(Valve, name="tank valve/flush bottom", place="head", sizes=size
         return lying(t, "tank valve")
 
 
-class WaferSampler(Valve, name="sampling valve/wafer", sizes=sized(25, 200)):
+class WaferSampler(Valve, name="sampling valve/wafer", sizes=sizes_between(25, 200)):
     """A sampling valve between flanges (wafer): a thick ring, its neck with a needle head and a bent spout."""
 
     size: float = between(0.008, 0.011, "radius of the needle's body", "m")

@@ -7,14 +7,17 @@ import numpy as np
 from cadplants.builder.device import families_of
 from cadplants.builder.params import among, between, chance, styled, weighted, whole
 from cadplants.builder.table import Table, outline
-from cadplants.families.valves.base import BOTH, HOLLOW, lying
+from cadplants.families.valves.base import (
+    HOLLOW,
+    lying,
+)
 from cadplants.families.valves.parts import BIG, MID, SMALL, cage, cover, hub_radius, spring, thread_nut, threaded_run
 from cadplants.families.valves.valve import Valve, bolt_circle, disc_flange, flanged_body
 from cadplants.family import Model
 from cadplants.flange import plate_thickness
 from cadplants.mesh_ops import Solid, about_x, extrude, merge, moved
 from cadplants.polygon import circle, rounded_rectangle
-from cadplants.primitives import along, around, ball, box, cylinder, hexagon, lofted, ring, rod, turned
+from cadplants.primitives import BOTH, along, around, ball, box, cylinder, hexagon, lofted, ring, rod, turned
 from cadplants.standards import FACE_TO_FACE, FLANGES, SIZES
 from cadplants.transforms import at, spun
 from cadplants.valve_body import bore_of

@@ -12,7 +12,10 @@ from cadplants.builder.table import Table, outline
 from cadplants.families.valves.actuation_base import INDICATORS, STEMS, put_indicator, put_stem
 from cadplants.families.valves.actuation_hand import Handwheel, wheels
 from cadplants.families.valves.actuation_stroke import STROKES, Yoke, linear_of
-from cadplants.families.valves.base import HOLLOW, lying, sized
+from cadplants.families.valves.base import (
+    HOLLOW,
+    lying,
+)
 from cadplants.families.valves.body import Packing, ended, lid_joint, neck_of, room
 from cadplants.families.valves.globe import GlobeBody, globe_plug
 from cadplants.families.valves.threaded import hex_end
@@ -20,7 +23,7 @@ from cadplants.families.valves.valve import Valve, disc_flange
 from cadplants.family import Model
 from cadplants.mesh_ops import Solid, moved
 from cadplants.primitives import AXES, along, ball, cylinder, dome, hexagon, ring, turned
-from cadplants.standards import FACE_TO_FACE
+from cadplants.standards import FACE_TO_FACE, sizes_between
 from cadplants.transforms import at, spun
 
 __all__ = ["CONTROLS"]
@@ -88,7 +91,7 @@ class Cage(_Control, name="control valve/cage", weight=2):
         return self.done(t, length, self.ends)
 
 
-class Angle(Valve, name="control valve/angle", place="head", sizes=sized(15, 200)):
+class Angle(Valve, name="control valve/angle", place="head", sizes=sizes_between(15, 200)):
     """An angle control valve: inlet from below, outlet to the side, bonnet with any linear actuator above."""
 
     belly: float = between(1.3, 1.6, "radius of the body / of the pipe")
@@ -146,7 +149,7 @@ class _ShortPiston(Params):
         t.add("position indicator", cylinder(r, long, top, 12), dome(r, r, top, 12), of="dial", own=True)
 
 
-class AngleSeat(_Control, name="angle seat valve/piston", sizes=sized(15, 65), weight=1.5):
+class AngleSeat(_Control, name="angle seat valve/piston", sizes=sizes_between(15, 65), weight=1.5):
     """An angle-seat valve: an oblique bonnet that carries a short piston actuator with a clear dome, or a wheel."""
 
     ends: str = among(("hex", "octagon", "butt", "flanged"), _ENDS)
@@ -187,7 +190,7 @@ class AngleSeat(_Control, name="angle seat valve/piston", sizes=sized(15, 65), w
         return self.done(t, length, self.ends, "globe valve")
 
 
-class Heating(_Control, name="control valve/heating", sizes=sized(15, 100)):
+class Heating(_Control, name="control valve/heating", sizes=sizes_between(15, 100)):
     """A two-way or mixing valve of heating plants: compact iron or brass body, a small linear motor on a clamp yoke."""
 
     ends: str = among(("flanged", "hex", "octagon"), _ENDS, when=lambda p: p.dn <= 50, otherwise="flanged")

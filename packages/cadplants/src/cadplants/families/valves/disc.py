@@ -20,14 +20,13 @@ from cadplants.family import Model
 from cadplants.flange import plate_thickness
 from cadplants.mesh_ops import Solid, about_x, merge, moved
 from cadplants.polygon import circle, rounded_rectangle
-from cadplants.primitives import along, around, box, cylinder, hexagon, ring, turned
-from cadplants.standards import FACE_TO_FACE, PIPES, SIZES
+from cadplants.primitives import BOTH, along, around, box, cylinder, hexagon, ring, turned
+from cadplants.standards import FACE_TO_FACE, PIPES, sizes_between
 from cadplants.transforms import at, spun
 
 __all__ = ["DISCS"]
 
-_BOTH = (-1, 1)
-_LARGE = tuple(dn for dn in SIZES if dn >= 50)
+_LARGE = sizes_between(50)
 _DISC = "disc"
 
 
@@ -48,7 +47,7 @@ class _Neck(Params):
             step, rim = low + 0.45 * (high - low), 1.9 * slim
             solids = [turned(outline(1.3 * slim, low, 1.1 * slim, step, rim, step, rim, step + thick), n)]
             post = (0.5 * slim, 0.7 * slim, high - step)
-            solids += [box(post, (0, s * 1.4 * slim, (high + step - thick) / 2)) for s in _BOTH]
+            solids += [box(post, (0, s * 1.4 * slim, (high + step - thick) / 2)) for s in BOTH]
         return [*solids, slab(plate_outline(self.pad, 2.2 * slim, 2.2 * slim, n), high - thick, high)]
 
     def thick(self, slim: float) -> float:
@@ -98,7 +97,7 @@ class Triple(Valve, name="butterfly valve/triple offset", sizes=_LARGE):
             t.add("valve body", about_x(seat), of="trim")
         if self.footed:
             foot = (0.5 * length, 0.02, 0.35 * bottom)
-            t.add("valve body", *(box(foot, (length / 2, s * 0.6 * wall, -0.82 * bottom)) for s in _BOTH))
+            t.add("valve body", *(box(foot, (length / 2, s * 0.6 * wall, -0.82 * bottom)) for s in BOTH))
         self.operator.build(t.at(x, 0, high + 0.012))
         return t.model(round(length, 6), kind="butterfly valve")
 
@@ -182,7 +181,7 @@ class MonoFlange(Valve, name="butterfly valve/mono-flange", sizes=BIG):
         return t.model(length, "wafer", "butterfly valve")
 
 
-class Hygienic(Valve, name="butterfly valve/hygienic", sizes=tuple(dn for dn in SIZES if 25 <= dn <= 150)):
+class Hygienic(Valve, name="butterfly valve/hygienic", sizes=sizes_between(25, 150)):
     """A hygienic butterfly valve: two polished halves, weld or clamp ends, a squeeze lever or a cylinder."""
 
     hollow: bool = styled(True, "whether insides are modelled")
@@ -250,7 +249,7 @@ class Plastic(Valve, name="butterfly valve/plastic", sizes=BIG):
         slim, high = 0.18 * radius + 0.011, outer + 0.03 + 0.35 * radius
         tower = [slab(rounded_rectangle(1.7 * slim, 2.4 * slim, 0.4 * slim, 3), 0.97 * outer, high)]
         web = (0.8 * slim, 0.005, high - 0.98 * outer)
-        tower += [box(web, (0, s * 1.5 * slim, (high + 0.98 * outer) / 2)) for s in _BOTH]
+        tower += [box(web, (0, s * 1.5 * slim, (high + 0.98 * outer) / 2)) for s in BOTH]
         tower.append(box((2.2 * slim, 3.6 * slim, 0.01), (0, 0, high - 0.005)))
         t.add("valve body", *solids, *(moved(one, at(x)) for one in tower))
         a, reach, t = np.linspace(-0.2, 1.8, 21), 0.04 + 0.9 * radius, t.at(x)
@@ -267,7 +266,7 @@ class Plastic(Valve, name="butterfly valve/plastic", sizes=BIG):
         return t.model(length, "wafer", "butterfly valve")
 
 
-class Damper(Valve, name="butterfly valve/duct damper", sizes=tuple(dn for dn in SIZES if dn >= 80)):
+class Damper(Valve, name="butterfly valve/duct damper", sizes=sizes_between(80)):
     """A single-blade damper in a short duct piece: bead ends, shaft right through, quadrant lever."""
 
     long: float = between(1.2, 2.4, "length / radius of the duct")
@@ -286,7 +285,7 @@ class Damper(Valve, name="butterfly valve/duct damper", sizes=tuple(dn for dn in
         solids = [about_x(ring(bore, radius, 0.0, length, n))]
         if self.beaded:
             solids += [about_x(ring(0.995 * radius, radius + 0.012, z, z + 0.004, n)) for z in (0.02, length - 0.024)]
-        for s in _BOTH:
+        for s in BOTH:
             solids.append(along("z", cylinder(0.012 + 0.05 * radius, *span(s * 0.98 * radius, s * high), 12), x))
         t.add("valve body", *solids)
         t = t.at(x)

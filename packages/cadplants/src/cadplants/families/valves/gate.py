@@ -28,13 +28,11 @@ from cadplants.families.valves.valve import BIG, Valve
 from cadplants.family import Model
 from cadplants.mesh_ops import Solid, merge, moved
 from cadplants.polygon import circle, rounded_rectangle
-from cadplants.primitives import along, around, box, cylinder, hexagon, lofted, ring, turned
-from cadplants.standards import FACE_TO_FACE, PIPES, SIZES
+from cadplants.primitives import BOTH, along, around, box, cylinder, hexagon, lofted, ring, turned
+from cadplants.standards import FACE_TO_FACE, PIPES, sizes_between
 from cadplants.transforms import at, spun
 
 __all__ = ["GATES", "Gate", "Resilient"]
-
-_BOTH = (-1, 1)
 
 
 class Gate(Valve):
@@ -90,7 +88,7 @@ class CastWedge(Gate, name="gate valve/cast wedge", weight=1.5):
             rib = slab(np.array([(inner, low), (0.9 * pa, low), (inner, top - 0.01)]), -thick / 2, thick / 2)
             hood.append(around(moved(rib, spun("x", np.pi / 2)), 4, 0.0, self.ribs))
         web = (2 * a + 0.01, 0.012, 2.2 * radius)
-        webs = [box(web, (0, s * 0.4 * b, 0.2 * radius)) for s in _BOTH] if self.webbed else []
+        webs = [box(web, (0, s * 0.4 * b, 0.2 * radius)) for s in BOTH] if self.webbed else []
         body = ended(self.dn, t.style, length, barrel, self.ends)
         t.add("valve body", body, *(moved(one, at(x)) for one in (hollow, collar, *webs)))
         t = t.at(x)
@@ -136,7 +134,7 @@ class PressureSeal(Gate, name="gate valve/pressure seal", sizes=BIG):
         t.extend([bolts_on(edge, 6, high, high + 0.014 + 0.06 * radius, 0.008 + 0.05 * radius)])
         self.gland.build(t.at(0, 0, top), slim)
         clamp = [cylinder(1.2 * big, high - 0.3 * radius, high - 0.08 * radius, n)]
-        clamp += [box((0.02, 0.4 * big, 0.2 * radius), (s * 1.22 * big, 0, high - 0.19 * radius)) for s in _BOTH]
+        clamp += [box((0.02, 0.4 * big, 0.2 * radius), (s * 1.22 * big, 0, high - 0.19 * radius)) for s in BOTH]
         t.add("yoke", *clamp)
         yoke = top - high + self.gland.high(slim) + 1.6 * radius + 0.08
         self.screw.build(t.at(0, 0, high), 1.12 * big, yoke, slim)
@@ -248,7 +246,7 @@ class Conduit(Gate, name="gate valve/through conduit", sizes=BIG):
         if self.drained:
             drain = turned(outline(0.3 * radius, 0, 0.3 * radius, 0.02, 0.12 * radius, 0.03), 12)
             tower.append(along("-z", drain, 0, 0, -down))
-            tower += [along("y", hexagon(0.03, b - 0.002, b + 0.03), 0, 0, s * 0.6 * up) for s in _BOTH]
+            tower += [along("y", hexagon(0.03, b - 0.002, b + 0.03), 0, 0, s * 0.6 * up) for s in BOTH]
         body = ended(self.dn, t.style, length, middle, "flanged")
         t.add("valve body", body, *(moved(one, at(x)) for one in tower))
         slim, top, t = 0.008 + 0.08 * radius, up + plate, t.at(x)
@@ -271,7 +269,7 @@ class Conduit(Gate, name="gate valve/through conduit", sizes=BIG):
         return t.model(round(length, 6), kind="gate valve")
 
 
-class Forged(Gate, name="gate valve/forged", sizes=tuple(dn for dn in SIZES if dn <= 50)):
+class Forged(Gate, name="gate valve/forged", sizes=sizes_between(most=50)):
     """A compact forged gate or globe valve, bolted or welded bonnet, socket, threaded or butt ends (API 602)."""
 
     ends: str = among(("socket", "socket", "hex", "octagon", "butt"), "its ends")

@@ -19,14 +19,13 @@ from cadplants.family import Model
 from cadplants.mesh_ops import Solid, about_x, merge, moved
 from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle
-from cadplants.primitives import along, ball, box, cylinder, hexagon, lofted, ring, turned, waves
-from cadplants.standards import FACE_TO_FACE, PIPES, SIZES
+from cadplants.primitives import BOTH, along, ball, box, cylinder, hexagon, lofted, ring, turned, waves
+from cadplants.standards import FACE_TO_FACE, PIPES, sizes_between
 from cadplants.transforms import at
 from cadplants.valve_body import bore_of
 
 __all__ = ["GLOBES", "GlobeBody", "globe_plug"]
 
-_BOTH = (-1, 1)
 _ABOUT_STEM = "form of its stem"
 _PLUGS = ("disc", "cone", "piston")
 
@@ -100,7 +99,7 @@ class Bellows(Valve, name="globe valve/bellows seal", sizes=MID):
         top, high = seat + plate, seat + plate + self.high * radius + 0.04
         if self.open:
             arm = (0.25 * throat, 0.16 * throat, high - top + 0.006)
-            hood = [box(arm, (0, s * 0.82 * throat, (top + high) / 2)) for s in _BOTH]
+            hood = [box(arm, (0, s * 0.82 * throat, (top + high) / 2)) for s in BOTH]
             hood.append(cylinder(throat, high - 0.012, high + 0.004, n))
         else:
             side = outline(throat, top - 0.002, 0.75 * throat, top + 0.25 * (high - top), 0.72 * throat, high - 0.012)
@@ -127,7 +126,7 @@ class Bellows(Valve, name="globe valve/bellows seal", sizes=MID):
         return t.model(round(length, 6), kind="globe valve")
 
 
-class Needle(Valve, name="needle valve/bar stock", sizes=tuple(dn for dn in SIZES if dn <= 40)):
+class Needle(Valve, name="needle valve/bar stock", sizes=sizes_between(most=40)):
     """A needle valve from bar stock: a hexagon, square, round or forged tee body, screwed bonnet, tee bar or knob."""
 
     form: str = among(("hexagon", "square", "round", "tee"), "form of its body")
@@ -173,7 +172,7 @@ class Needle(Valve, name="needle valve/bar stock", sizes=tuple(dn for dn in SIZE
         return t.model(round(length, 6), "welded", "needle valve")
 
 
-class Cryogenic(Valve, name="globe valve/cryogenic", sizes=tuple(dn for dn in SIZES if dn <= 65)):
+class Cryogenic(Valve, name="globe valve/cryogenic", sizes=sizes_between(most=65)):
     """A cryogenic globe valve: a slender body, a very long bonnet pipe with a drip plate, a yoke far above."""
 
     ends: str = among(("butt", "socket"), "its ends, welded in")

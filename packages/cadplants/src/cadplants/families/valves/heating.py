@@ -7,14 +7,17 @@ import numpy as np
 from cadplants.builder.device import families_of
 from cadplants.builder.params import Params, among, between, chance, nested, several, whole
 from cadplants.builder.table import Table, outline
-from cadplants.families.valves.base import BOTH, sized, standing
+from cadplants.families.valves.base import (
+    standing,
+)
 from cadplants.families.valves.drive import Wheel
 from cadplants.families.valves.parts import SMALL, bend, square, threaded_run
 from cadplants.families.valves.valve import Valve
 from cadplants.family import Model
 from cadplants.mesh_ops import Solid, extrude, moved, tube
 from cadplants.polygon import rounded_rectangle
-from cadplants.primitives import along, around, ball, box, cylinder, hexagon, ring, rod, turned
+from cadplants.primitives import BOTH, along, around, ball, box, cylinder, hexagon, ring, rod, turned
+from cadplants.standards import sizes_between
 from cadplants.transforms import at, spun
 
 __all__ = ["HEATING"]
@@ -66,7 +69,7 @@ class Rotary(Valve, name="mixing valve/rotary", sizes=SMALL):
         return t.model(round(length, 6), "welded", "mixing valve")
 
 
-class Zone(Valve, name="control valve/zone", sizes=sized(15, 32)):
+class Zone(Valve, name="control valve/zone", sizes=sizes_between(15, 32)):
     """A motorised zone valve: brass body with wrench ends, a motor box with a manual lever, a cable."""
 
     long: float = between(4.8, 6.2, _LONG)

@@ -14,15 +14,14 @@ from cadplants.families.valves.actuation_base import STEMS, put_stem
 from cadplants.families.valves.actuation_hand import Handwheel, slab, wheels
 from cadplants.families.valves.actuation_stroke import STROKES, Yoke
 from cadplants.families.valves.ball import ClampedEnds, ferrule, part_ring
-from cadplants.families.valves.base import BOTH, sized
 from cadplants.families.valves.body import bolts_on, ended, lid_joint, neck_of, oval, plate_outline
 from cadplants.families.valves.valve import Valve
 from cadplants.family import Model
 from cadplants.flange import plate_thickness
 from cadplants.mesh_ops import Solid, about_x, merge, moved
 from cadplants.polygon import rounded_rectangle
-from cadplants.primitives import along, box, cylinder, hexagon, lofted, ring, rod, turned, waves
-from cadplants.standards import FACE_TO_FACE
+from cadplants.primitives import BOTH, along, box, cylinder, hexagon, lofted, ring, rod, turned, waves
+from cadplants.standards import FACE_TO_FACE, sizes_between
 from cadplants.transforms import at
 
 __all__ = ["LININGS"]
@@ -36,7 +35,7 @@ def _ovals(a: float, b: float, n: int, *marks: tuple[float, float, float]) -> So
     return lofted([np.column_stack([oval(a * s, b * f, n), np.full(n, z)]) for s, f, z in marks])
 
 
-class StraightDiaphragm(Valve, name="diaphragm valve/straight through", sizes=sized(15, 200)):
+class StraightDiaphragm(Valve, name="diaphragm valve/straight through", sizes=sizes_between(15, 200)):
     """A straight-through diaphragm valve: full bore, a long oval joint, a tall bonnet (EN 13397)."""
 
     joint: str = among(("oval", "square", "oval", "octagon"), "outline of the joint")
@@ -78,7 +77,7 @@ class StraightDiaphragm(Valve, name="diaphragm valve/straight through", sizes=si
         return t.model(length, kind="diaphragm valve")
 
 
-class Aseptic(Valve, name="diaphragm valve/aseptic", sizes=sized(15, 100), weight=1.5):
+class Aseptic(Valve, name="diaphragm valve/aseptic", sizes=sizes_between(15, 100), weight=1.5):
     """An aseptic or plastic diaphragm valve: block body, square joint, clamp, weld or socket ends (EN 13397)."""
 
     ends: str = among(("clamp", "butt", "socket"), "how it is joined to the pipe")
@@ -141,7 +140,7 @@ def _sleeve(length: float, thick: float, size: float, flat: float, n: int) -> So
     return lofted(loops)
 
 
-class OpenPinch(Valve, name="pinch valve/open frame", sizes=sized(25)):
+class OpenPinch(Valve, name="pinch valve/open frame", sizes=sizes_between(25)):
     """An open-frame pinch valve: a rubber sleeve between two flanges, squeezed by bars in an open yoke."""
 
     flat: float = between(0.3, 1.0, "height of the squeezed sleeve / of the open one")
@@ -209,7 +208,7 @@ class _Squeezer(Params):
         self.wheel.build(t, 0.05 + 1.2 * r, tall + 0.002)
 
 
-class EnclosedPinch(Valve, name="pinch valve/enclosed", sizes=sized(25)):
+class EnclosedPinch(Valve, name="pinch valve/enclosed", sizes=sizes_between(25)):
     """An enclosed pinch valve: two cast halves bolted along the middle, air-operated or with a wheel above."""
 
     shape: str = among(("drum", "barrel", "ringed"), "shape of the casing")

@@ -16,7 +16,7 @@ from cadplants.mesh_ops import Solid, extrude, merge, moved
 from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle
 from cadplants.primitives import along, around, box, cylinder, hexagon, rope, torus, turned
-from cadplants.standards import FLANGES, PIPES, SIZES
+from cadplants.standards import FLANGES, PIPES, sizes_between
 from cadplants.transforms import at
 
 __all__ = [
@@ -24,9 +24,9 @@ __all__ = [
     "thread_nut", "threaded_run",
 ]  # fmt: skip
 
-SMALL = tuple(dn for dn in SIZES if dn <= 50)
-MID = tuple(dn for dn in SIZES if dn <= 200)
-BIG = tuple(dn for dn in SIZES if dn >= 40)
+SMALL = sizes_between(most=50)
+MID = sizes_between(most=200)
+BIG = sizes_between(40)
 
 _BACK = {"x": "-x", "-x": "x", "y": "-y", "-y": "y", "z": "-z", "-z": "z"}
 

@@ -18,7 +18,7 @@ from cadplants.family import Model
 from cadplants.mesh_ops import moved
 from cadplants.polygon import rounded_rectangle
 from cadplants.primitives import along, box, cylinder, dome, hexagon, lofted, rod, turned
-from cadplants.standards import FACE_TO_FACE, SIZES
+from cadplants.standards import FACE_TO_FACE, sizes_between
 from cadplants.transforms import at
 
 __all__ = ["PLUGS"]
@@ -75,7 +75,7 @@ class Lubricated(Valve, name="plug valve/lubricated", sizes=MID):
         return t.model(round(length, 6), kind="plug valve")
 
 
-class Eccentric(Valve, name="plug valve/eccentric", sizes=tuple(dn for dn in SIZES if dn >= 50)):
+class Eccentric(Valve, name="plug valve/eccentric", sizes=sizes_between(50)):
     """An eccentric plug valve for sewage: bulging half-round body, bolted cover with a bearing hub."""
 
     hollow: bool = styled(True, "whether insides are modelled")
@@ -155,7 +155,7 @@ class MultiPort(Valve, name="plug valve/multi-port", sizes=MID):
         return t.model(round(length, 6), kind="plug valve")
 
 
-class BibTap(Valve, name="bib tap/spout", sizes=tuple(dn for dn in SIZES if dn <= 50), place="end"):
+class BibTap(Valve, name="bib tap/spout", sizes=sizes_between(most=50), place="end"):
     """A bib cock on a pipe's end: a turned body, a downward spout with a hose thread, a lever, cross, tee or wing."""
 
     drop: float = between(1.6, 3.0, "of its spout / radius of the pipe")

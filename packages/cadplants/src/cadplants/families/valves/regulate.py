@@ -7,14 +7,16 @@ import numpy as np
 from cadplants.builder.device import families_of
 from cadplants.builder.params import Params, among, between, chance, nested, whole
 from cadplants.builder.table import Table, outline
-from cadplants.families.valves.base import BOTH, lying, sized
+from cadplants.families.valves.base import (
+    lying,
+)
 from cadplants.families.valves.parts import MID, SMALL, bend, cover, hub_radius, spring, threaded_run
 from cadplants.families.valves.valve import Valve, bolt_circle, disc_flange, flanged_body
 from cadplants.family import Model
 from cadplants.flange import plate_thickness
 from cadplants.mesh_ops import Solid, moved
-from cadplants.primitives import along, around, ball, box, cylinder, hexagon, ring, rod, rope, turned
-from cadplants.standards import FACE_TO_FACE
+from cadplants.primitives import BOTH, along, around, ball, box, cylinder, hexagon, ring, rod, rope, turned
+from cadplants.standards import FACE_TO_FACE, sizes_between
 from cadplants.transforms import at
 
 __all__ = ["REGULATORS"]
@@ -103,7 +105,7 @@ class DomeLoaded(Valve, name="pressure reducing valve/dome loaded", sizes=MID):
         return t.model(length, kind=_REDUCING)
 
 
-class GasRegulator(Valve, name="pressure reducing valve/gas", sizes=sized(15, 100), weight=1.3):
+class GasRegulator(Valve, name="pressure reducing valve/gas", sizes=sizes_between(15, 100), weight=1.3):
     """A gas regulator (EN 334): flat wide diaphragm housing, upright or aside, tower, vent, slam-shut."""
 
     flanged: bool = chance(0.4, "flanged rather than screwed", when=lambda p: p.dn <= 50, otherwise=True)
@@ -145,7 +147,7 @@ class GasRegulator(Valve, name="pressure reducing valve/gas", sizes=sized(15, 10
         return t.model(round(length, 6), "flanged" if self.flanged else "welded", _REDUCING)
 
 
-class PilotLoop(Valve, name="control valve/pilot loop", sizes=sized(40)):
+class PilotLoop(Valve, name="control valve/pilot loop", sizes=sizes_between(40)):
     """A pilot-operated diaphragm control valve (waterworks type): globe, domed cover, pilot loop aside."""
 
     globe: _Globe = nested(_Globe, "body")
@@ -188,7 +190,7 @@ class PilotLoop(Valve, name="control valve/pilot loop", sizes=sized(40)):
         return t.model(length, kind="control valve")
 
 
-class SelfActing(Valve, name="pressure reducing valve/self-acting", sizes=sized(15, 100)):
+class SelfActing(Valve, name="pressure reducing valve/self-acting", sizes=sizes_between(15, 100)):
     """A self-operated reducing valve: a globe whose springs stand on columns below, over a hanging diaphragm can."""
 
     globe: _Globe = nested(_Globe, "body")

@@ -7,14 +7,16 @@ import numpy as np
 from cadplants.builder.device import families_of
 from cadplants.builder.params import Params, among, between, chance, nested, whole
 from cadplants.builder.table import Table, outline
-from cadplants.families.valves.base import BOTH, lying, sized
+from cadplants.families.valves.base import (
+    lying,
+)
 from cadplants.families.valves.parts import MID, bend, branch, cover, hub_radius, spring
 from cadplants.families.valves.valve import Valve, disc_flange
 from cadplants.family import Model
 from cadplants.flange import plate_thickness
 from cadplants.mesh_ops import Solid, merge, moved, tube
-from cadplants.primitives import along, around, box, cylinder, hexagon, ring, rope, turned
-from cadplants.standards import FLANGES, PIPES, SIZES
+from cadplants.primitives import BOTH, along, around, box, cylinder, hexagon, ring, rope, turned
+from cadplants.standards import FLANGES, PIPES, SIZES, sizes_between
 from cadplants.transforms import at, spun
 
 __all__ = ["RELIEFS"]
@@ -126,7 +128,7 @@ class OpenBonnet(_Safety, name="relief valve/open bonnet"):
         return lying(t, "relief valve")
 
 
-class Pilot(_Safety, name="relief valve/pilot", sizes=sized(25, 200)):
+class Pilot(_Safety, name="relief valve/pilot", sizes=sizes_between(25, 200)):
     """A pilot-operated safety valve (API 526 ends): flat cap, a pilot with its own spring case aside, sense lines."""
 
     bolts: int = among((6, 8, 12), "of its cover")
@@ -246,7 +248,7 @@ class WaterHeater(Valve, name="relief valve/water heater", place="tap"):
         return t.model(kind="relief valve")
 
 
-class RuptureDisc(Valve, name="rupture disc/holder", sizes=sized(25)):
+class RuptureDisc(Valve, name="rupture disc/holder", sizes=sizes_between(25)):
     """A rupture disc in its holder (EN ISO 4126-2): two rings between flanges, domed disc, hook, tag, cap screws."""
 
     tilt: float = between(-0.3, 0.3, "of the tag about the pipe", "rad")

@@ -18,12 +18,10 @@ from cadplants.families.valves.valve import BIG, Valve
 from cadplants.family import Model
 from cadplants.mesh_ops import moved
 from cadplants.polygon import circle, rounded_rectangle
-from cadplants.primitives import along, around, box, cylinder, hexagon, ring, turned
+from cadplants.primitives import BOTH, along, around, box, cylinder, hexagon, ring, turned
 from cadplants.transforms import spun
 
 __all__ = ["SLUICES"]
-
-_BOTH = (-1, 1)
 
 
 class Slide(Valve, name="slide gate valve/frame", sizes=BIG):
@@ -41,7 +39,7 @@ class Slide(Valve, name="slide gate valve/frame", sizes=BIG):
         solids = [along("x", ring(bore, half, z, z + thick, n)) for z in (0.0, length - thick)]
         solids.append(along("x", ring(bore, radius * 1.06, 0.0, length, n)))
         x, wide, open_ = length / 2, length - 2 * thick, self.open * 1.9 * radius
-        solids += [box((wide, 0.03, half + reach), (x, s * 0.96 * half, (reach - half) / 2)) for s in _BOTH]
+        solids += [box((wide, 0.03, half + reach), (x, s * 0.96 * half, (reach - half) / 2)) for s in BOTH]
         solids += [box((wide, 2 * half, 0.02), (x, 0, z)) for z in (-half + 0.01, half + 0.02)]
         t.add("valve body", *solids)
         t = t.at(x)
@@ -90,13 +88,13 @@ class Sluice(Valve, name="sluice gate/wall", sizes=(100,), place="floor"):
             edge = circle(0.5 * wide, 24, (0.0, 0.75 * wide))
         rim, tall, span = head + 0.3, 2 * head - bottom + 0.35, head - bottom
         rail, mid = (0.06, 0.06, tall - bottom + 0.1), (bottom + head) / 2 + lift
-        frame = [box(rail, (0.03, s * 0.58 * wide, (tall + bottom - 0.1) / 2)) for s in _BOTH]
+        frame = [box(rail, (0.03, s * 0.58 * wide, (tall + bottom - 0.1) / 2)) for s in BOTH]
         frame.append(box((0.05, 1.22 * wide, 0.06), (0.025, 0, bottom - 0.05)))
         t.add("valve body", *frame, box((0.08, 1.24 * wide, 0.08), (0.04, 0, tall)), of="steel")
         door = [box((0.012, 1.1 * wide, span + 0.06), (0.014, 0, mid))]
         levels = np.linspace(-0.4, 0.4, self.ribs) * span
         door += [box((0.04, 1.04 * wide, 0.012), (0.036, 0, float(mid + z))) for z in levels]
-        door += [box((0.04, 0.012, 0.9 * span), (0.036, s * 0.3 * wide, mid)) for s in _BOTH]
+        door += [box((0.04, 0.012, 0.9 * span), (0.036, s * 0.3 * wide, mid)) for s in BOTH]
         t.add("valve disc", *door)
         wall = np.array([(-1.2 * wide, 0.0), (1.2 * wide, 0.0), (1.2 * wide, rim), (-1.2 * wide, rim)])
         # The outline's x is along y, its y up, the thickness along x.
@@ -105,7 +103,7 @@ class Sluice(Valve, name="sluice gate/wall", sizes=(100,), place="floor"):
         spindle = t.at(0.045)
         put_stem(spindle, mid + 0.4 * span, tall + 0.35 + lift, self.slim, self.stem)
         anchor, levels = hexagon(0.03, 0.06, 0.078), np.linspace(bottom, rim - 0.1, 5)
-        t.add("bolt", *(along("x", anchor, 0, s * 0.58 * wide, float(z)) for s in _BOTH for z in levels))
+        t.add("bolt", *(along("x", anchor, 0, s * 0.58 * wide, float(z)) for s in BOTH for z in levels))
         if self.wheeled:
             stand, spindle = outline(0.13, 0, 0.13, 0.02, 0.06, 0.06, 0.05, 0.2), spindle.at(0, 0, tall + 0.04)
             spindle.add("yoke", turned([*stand, (0.08, 0.25), (0.08, 0.28)], 20))

@@ -9,13 +9,15 @@ import numpy as np
 from cadplants.builder.device import families_of
 from cadplants.builder.params import Params, among, between, chance, given, nested, several, whole
 from cadplants.builder.table import Table, outline
-from cadplants.families.valves.base import BOTH, standing
+from cadplants.families.valves.base import (
+    standing,
+)
 from cadplants.families.valves.drive import Wheel, drive_of, put_spindle
 from cadplants.families.valves.parts import SMALL, bend, chain, square
 from cadplants.families.valves.valve import Valve
 from cadplants.family import Model
 from cadplants.mesh_ops import merge, moved, tube
-from cadplants.primitives import along, around, ball, box, cylinder, hexagon, ring, rope, turned
+from cadplants.primitives import BOTH, along, around, ball, box, cylinder, hexagon, ring, rope, turned
 from cadplants.standards import PIPES
 from cadplants.transforms import at, spun
 

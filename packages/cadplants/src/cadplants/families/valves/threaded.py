@@ -9,15 +9,14 @@ import numpy as np
 from cadplants.builder.device import families_of
 from cadplants.builder.params import Params, among, between, chance, nested
 from cadplants.builder.table import Table, outline
-from cadplants.families.valves.base import BOTH, sized
 from cadplants.families.valves.drive import Wheel, drive_of, put_spindle
 from cadplants.families.valves.valve import Valve
 from cadplants.family import Model
 from cadplants.mesh_ops import Solid, extrude, merge, moved
 from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle
-from cadplants.primitives import along, box, cylinder, hexagon, ring, rod, turned
-from cadplants.standards import PIPES
+from cadplants.primitives import BOTH, along, box, cylinder, hexagon, ring, rod, turned
+from cadplants.standards import PIPES, sizes_between
 from cadplants.transforms import at
 
 __all__ = ["THREADED", "hex_end"]
@@ -35,7 +34,7 @@ def hex_end(dn: int, low: float, high: float, style: ModelingStyle, corners: int
     return along("x", extrude(outline, low, high, holes))
 
 
-class _Threaded(Valve, sizes=sized(15, 50)):
+class _Threaded(Valve, sizes=sizes_between(15, 50)):
     """A threaded valve in a line."""
 
     def done(self, t: Table, length: float, kind: str) -> Model:

@@ -13,15 +13,17 @@ from cadplants.families.valves.actuation import operator
 from cadplants.families.valves.actuation_base import put_stem
 from cadplants.families.valves.actuation_hand import Handlever, Handwheel, levers, slab, span
 from cadplants.families.valves.ball import BallInside, ClampedEnds, StemTop, ferrule
-from cadplants.families.valves.base import BOTH, HOLLOW, sized
+from cadplants.families.valves.base import (
+    HOLLOW,
+)
 from cadplants.families.valves.body import Packing, neck_of, part_turned, valve_ball
 from cadplants.families.valves.threaded import hex_end
 from cadplants.families.valves.valve import Valve
 from cadplants.family import Model
 from cadplants.mesh_ops import Solid, about_x, merge, moved
 from cadplants.polygon import circle, rounded_rectangle
-from cadplants.primitives import along, around, ball, box, cylinder, hexagon, ring
-from cadplants.standards import FACE_TO_FACE
+from cadplants.primitives import BOTH, along, around, ball, box, cylinder, hexagon, ring
+from cadplants.standards import FACE_TO_FACE, sizes_between
 from cadplants.transforms import at, spun
 from cadplants.valve_body import bore_of
 
@@ -38,7 +40,7 @@ class _Ball(Valve):
         return t.model(round(length, 6), "welded", kind)
 
 
-class Sanitary(_Ball, name="ball valve/sanitary clamp", sizes=sized(15, 100)):
+class Sanitary(_Ball, name="ball valve/sanitary clamp", sizes=sizes_between(15, 100)):
     """A sanitary three-piece ball valve with clamp ends, ferrules of the pipe and their clamps; a lever or actuator."""
 
     square: bool = chance(0.5, "its middle is held between square plates, not round ones")
@@ -81,7 +83,7 @@ class _UnionNut(Params):
         return slab(np.column_stack([reach * np.cos(turns), reach * np.sin(turns)]), low, high, (circle(inner, 24),))
 
 
-class TrueUnion(_Ball, name="ball valve/true union", sizes=sized(15, 100)):
+class TrueUnion(_Ball, name="ball valve/true union", sizes=sizes_between(15, 100)):
     """A plastic true-union ball valve: socket ends, two union nuts, a tee or wing handle, maybe feet (EN ISO 16135)."""
 
     nut: float = between(0.8, 1.1, "length of a union nut / radius of the pipe")
@@ -116,7 +118,7 @@ class TrueUnion(_Ball, name="ball valve/true union", sizes=sized(15, 100)):
         return self.done(t, 2 * x)
 
 
-class MultiPort(_Ball, name="ball valve/multi-port", sizes=sized(15, 50)):
+class MultiPort(_Ball, name="ball valve/multi-port", sizes=sizes_between(15, 50)):
     """A three- or four-way threaded ball valve (L or T bore): a cube or barrel with hexagon ends, lever above."""
 
     one_side: bool = chance(0.5, "a third way to one side")
@@ -147,7 +149,7 @@ class MultiPort(_Ball, name="ball valve/multi-port", sizes=sized(15, 50)):
         return self.done(t, length, "three-way valve")
 
 
-class CutOpen(Valve, name="ball valve/cut open", sizes=sized(15, 150)):
+class CutOpen(Valve, name="ball valve/cut open", sizes=sizes_between(15, 150)):
     """A ball valve cut open for show: part of the body away, polished ball, seats, stem and lever in sight."""
 
     lip: float = between(1.0, 1.2, "radius of the joint / of the body")
@@ -187,7 +189,7 @@ class CutOpen(Valve, name="ball valve/cut open", sizes=sized(15, 150)):
         return t.model(length, kind="ball valve")
 
 
-class Block(_Ball, name="ball valve/block", sizes=sized(15, 50)):
+class Block(_Ball, name="ball valve/block", sizes=sizes_between(15, 50)):
     """A high-pressure block ball valve of hydraulics: a square steel block, screwed-in hexagon ends, a bent lever."""
 
     lever: Handlever = nested(levers("bar", "sheet", "tee", "sheet"), "lever")

@@ -17,7 +17,7 @@ from cadplants.mesh_ops import Solid, about_x, extrude, merge, moved, revolve, w
 from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle
 from cadplants.primitives import along, around, ball, box, cylinder, dome, hexagon, ring, rod, turned
-from cadplants.standards import FACE_TO_FACE, FLANGES, PIPES, SIZES
+from cadplants.standards import FACE_TO_FACE, FLANGES, PIPES, SIZES, sizes_between
 from cadplants.transforms import at, spun
 from cadplants.valve_body import bore_of, flipped
 
@@ -31,8 +31,8 @@ __all__ = [
 
 Middle = Sequence[tuple[float, float]]
 
-BIG = tuple(dn for dn in SIZES if dn >= 40)
-MID = tuple(dn for dn in SIZES if dn <= 200)
+BIG = sizes_between(40)
+MID = sizes_between(most=200)
 
 
 def flanged_body(dn: int, style: ModelingStyle, length: float, middle: Middle, throat: Middle = ()) -> Solid:

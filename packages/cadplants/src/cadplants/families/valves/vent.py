@@ -7,14 +7,17 @@ import numpy as np
 from cadplants.builder.device import families_of
 from cadplants.builder.params import Params, among, between, chance, nested, several, whole
 from cadplants.builder.table import Table, outline
-from cadplants.families.valves.base import BOTH, lying, sized
+from cadplants.families.valves.base import (
+    lying,
+)
 from cadplants.families.valves.drive import Wheel
 from cadplants.families.valves.parts import SMALL, bend, cover, hub_radius, threaded_run
 from cadplants.families.valves.valve import Valve, bolt_circle, disc_flange, flanged_body
 from cadplants.family import Model
 from cadplants.flange import plate_thickness
 from cadplants.mesh_ops import merge
-from cadplants.primitives import along, around, box, cylinder, hexagon, ring, rod, rope, turned
+from cadplants.primitives import BOTH, along, around, box, cylinder, hexagon, ring, rod, rope, turned
+from cadplants.standards import sizes_between
 
 __all__ = ["VENTS"]
 
@@ -27,7 +30,7 @@ def _test_cock(t: Table) -> None:
     t.add("lever", box((0.028, 0.004, 0.008), (0.014, 0.012, 0.019)), shank)
 
 
-class Backflow(Valve, name="backflow preventer/reduced pressure", sizes=sized(50, 200)):
+class Backflow(Valve, name="backflow preventer/reduced pressure", sizes=sizes_between(50, 200)):
     """A reduced-pressure backflow preventer (EN 12729): two check chests with covers, a relief valve hung between."""
 
     long: float = between(5.0, 6.5, "length / diameter of the pipe")
@@ -85,7 +88,7 @@ class ThreadedBackflow(Valve, name="backflow preventer/threaded", sizes=SMALL):
         return t.model(round(length, 6), "welded", "backflow preventer")
 
 
-class AirBowl(Valve, name="air valve/bowl", place="head", sizes=sized(25, 200)):
+class AirBowl(Valve, name="air valve/bowl", place="head", sizes=sizes_between(25, 200)):
     """An air and vacuum valve (EN 1074-4): a bowl on a flange, a bolted cover, a cowl, elbow or screen on top."""
 
     wide: float = between(1.5, 2.3, "radius of the bowl / of the pipe")
@@ -130,7 +133,7 @@ class AirBowl(Valve, name="air valve/bowl", place="head", sizes=sized(25, 200)):
             t.add("valve bonnet", small, along("y", hexagon(0.25 * w + 0.004, 0.3 * w, 0.5 * w), 0, 0, 0.4 * w))
 
 
-class DoubleOrifice(Valve, name="air valve/double orifice", place="head", sizes=sized(40, 200)):
+class DoubleOrifice(Valve, name="air valve/double orifice", place="head", sizes=sizes_between(40, 200)):
     """A double-orifice air valve: a big and a small chamber side by side on one base, covers, an isolating wheel."""
 
     small: float = between(0.9, 1.7, "radius of the small chamber / of the pipe")
@@ -179,7 +182,7 @@ class _Pallet(Params):
         t.add("bolt", around(cylinder(0.004, -0.01, 0.08 * w + 0.008, 6), 6, 1.0 * w))
 
 
-class Breather(Valve, name="breather valve/pallet", place="head", sizes=sized(50)):
+class Breather(Valve, name="breather valve/pallet", place="head", sizes=sizes_between(50)):
     """A pressure and vacuum vent on a tank's nozzle (API 2000): two pallet chambers under hoods on a flanged chest."""
 
     boxy: bool = chance(0.5, "the chest is a box, not a barrel")
@@ -206,7 +209,7 @@ class Breather(Valve, name="breather valve/pallet", place="head", sizes=sized(50
         return lying(t, "breather valve")
 
 
-class FlameArrester(Valve, name="breather valve/flame arrester", place="head", sizes=sized(50)):
+class FlameArrester(Valve, name="breather valve/flame arrester", place="head", sizes=sizes_between(50)):
     """An end-of-line vent with a flame arrester (EN ISO 16852): a wide housing of rings, stay bolts, a weather hood."""
 
     wide: float = between(1.6, 2.2, "radius of the housing / of the pipe")
@@ -237,7 +240,7 @@ class FlameArrester(Valve, name="breather valve/flame arrester", place="head", s
         return lying(t, "breather valve")
 
 
-class Hatch(Valve, name="breather valve/hatch", place="head", sizes=sized(80), weight=0.7):
+class Hatch(Valve, name="breather valve/hatch", place="head", sizes=sizes_between(80), weight=0.7):
     """An emergency relief hatch on a tank's nozzle (API 2000): a wide seat, a lid on a hinge, a bale handle."""
 
     wide: float = between(1.15, 1.6, "radius of the seat / of the pipe")

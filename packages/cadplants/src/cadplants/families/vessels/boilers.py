@@ -14,12 +14,10 @@ from cadplants.families.vessels.vessel_fittings import head, sides
 from cadplants.family import Model, Port
 from cadplants.mesh_ops import Solid, extrude, moved
 from cadplants.polygon import rounded_rectangle
-from cadplants.primitives import along, around, box, cylinder, dome, hexagon, ring, rod, rope, turned
+from cadplants.primitives import BOTH, along, around, box, cylinder, dome, hexagon, ring, rod, rope, turned
 from cadplants.transforms import at, spun
 
 __all__ = ["BOILERS"]
-
-_BOTH = (-1, 1)
 
 
 class _Boiler(Device, place="floor", group="Equipment", label="boiler", bundle="boiler", sizes=(15,)):
@@ -50,7 +48,7 @@ class FireTube(_Boiler, name="boiler/fire-tube"):
         bands = [ring(r - 0.01, 1.008 * r + 0.002, x - 0.03, x + 0.03, n) for x in np.linspace(-0.35, 0.35, 3) * length]
         lying.along("x").add("boiler", cylinder(r, -end, end, n), *bands)
         door = turned(outline(0.92 * r, end, 0.92 * r, end + 0.18, 0.86 * r, end + 0.22), n)
-        hinges = [box((0.05, 0.12, 0.1), (-end - 0.1, 0.95 * r, s * 0.4 * r)) for s in _BOTH]
+        hinges = [box((0.05, 0.12, 0.1), (-end - 0.1, 0.95 * r, s * 0.4 * r)) for s in BOTH]
         burner = along("-x", cylinder(0.3 * r, end + 0.2, end + 0.27, n), 0, 0, -0.25 * r)
         lying.add("boiler", along("-x", door), *hinges, burner, of="electrical")
         box_end = end + 0.2 * r
@@ -59,11 +57,11 @@ class FireTube(_Boiler, name="boiler/fire-tube"):
         lying.add("boiler", smoke, hatch, of="electrical")
         stack = cylinder(0.2 * r, axis, axis + r + self.stack, t.n(0.2 * r))
         t.at(end + 0.02 - 0.1 * r).add("boiler", stack, of="clamp")
-        base = [box((length + 0.1, 0.1, 0.16), (0, s * 0.6 * r, 0.08)) for s in _BOTH]
-        base += [box((0.1, 1.2 * r, 0.12), (s * 0.45 * length, 0, 0.06)) for s in _BOTH]
+        base = [box((length + 0.1, 0.1, 0.16), (0, s * 0.6 * r, 0.08)) for s in BOTH]
+        base += [box((0.1, 1.2 * r, 0.12), (s * 0.45 * length, 0, 0.06)) for s in BOTH]
         tall = axis - 0.8 * r
         props = [
-            ((0.12, 0.02, tall), (f * length, s * 0.6 * r, tall / 2 + 0.05)) for f in (-0.35, 0, 0.35) for s in _BOTH
+            ((0.12, 0.02, tall), (f * length, s * 0.6 * r, tall / 2 + 0.05)) for f in (-0.35, 0, 0.35) for s in BOTH
         ]
         t.add("skid frame", *base, *(box(*prop) for prop in props))
         spots = [(at(f * length, 0, axis + r), dn) for f, dn in ((-0.3, 80), (-0.05, 50), (0.15, 40))]
@@ -77,7 +75,7 @@ class FireTube(_Boiler, name="boiler/fire-tube"):
     def _walkway(self, t: Table, length: float) -> None:
         """A walkway along the drum on arms, with a railing outside."""
         r, y, x = self.radius, 0.75 * self.radius + 0.58, 0.4 * length
-        arms = [box((0.05, 0.3 * r + 0.55, 0.06), (s * 0.3 * length, 0.6 * r + 0.25, -0.045)) for s in _BOTH]
+        arms = [box((0.05, 0.3 * r + 0.55, 0.06), (s * 0.3 * length, 0.6 * r + 0.25, -0.045)) for s in BOTH]
         t.add("grating", box((2 * x, 0.6, 0.03), (0, 0.75 * r + 0.3, 0)), *arms)
         rails = [rod((-x, y, h), (x, y, h), 0.018, 6) for h in (0.5, 1.0)]
         t.add("railing", *rails, *(rod((p, y, 0), (p, y, 1.0), 0.018, 6) for p in (-x, 0.0, x)))
@@ -170,7 +168,7 @@ class WaterTube(_Boiler, name="boiler/water-tube"):
         for r, z, reach in ((steam, zs, w + 0.3), (mud, zm, w + 0.2)):
             body = along("x", cylinder(r, -reach / 2, reach / 2, n), 0, y, z)
             cap = head("2:1", r, t.style, n)
-            caps = [moved(cap, at(s * reach / 2, y, z) @ spun("y", s * np.pi / 2)) for s in _BOTH]
+            caps = [moved(cap, at(s * reach / 2, y, z) @ spun("y", s * np.pi / 2)) for s in BOTH]
             t.add("boiler", body, *caps)
         tubes: list[Solid] = []
         wall = [(-d / 2, zs - 0.1 * h), (-d / 2, zm + 0.05 * h)]
@@ -180,12 +178,12 @@ class WaterTube(_Boiler, name="boiler/water-tube"):
             tubes += [rod((x, y + s * 0.5 * mud, zm), (x, y + s * 0.5 * steam, zs), 0.022, 6) for s in (-1, 0, 1)]
         t.add("boiler", *tubes, of="pipe")
         if self.cased:
-            case = [box((0.04, d, 0.8 * h), (s * 0.49 * w, 0.0, low + 0.45 * h)) for s in _BOTH]
+            case = [box((0.04, d, 0.8 * h), (s * 0.49 * w, 0.0, low + 0.45 * h)) for s in BOTH]
             stays = [box((w + 0.1, 0.08, 0.1), (0, d / 2 + 0.05, low + f * h)) for f in (0.2, 0.6)]
             t.add("boiler", *case, box((w, 0.04, 0.8 * h), (0, d / 2, low + 0.45 * h)), *stays, of="clamp")
         tall, post = low + 0.3 * mud, zs - 0.8 * steam
-        t.add("boiler", *(box((0.15, 1.4 * mud, tall), (s * 0.4 * w, y, tall / 2)) for s in _BOTH), of="steel")
-        for s in _BOTH:
+        t.add("boiler", *(box((0.15, 1.4 * mud, tall), (s * 0.4 * w, y, tall / 2)) for s in BOTH), of="steel")
+        for s in BOTH:
             t.add("column", box((0.12, 0.12, post), (s * (0.5 * w + 0.09), y, post / 2)))
         spots = [(at(f * w, y, zs + steam), dn) for f, dn in ((-0.25, 80), (0.0, 50), (0.25, 50))]
         return t.model(kind="water-tube boiler", ports=self.mouths(t, steam, 0.02, *spots))

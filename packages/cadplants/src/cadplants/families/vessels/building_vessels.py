@@ -13,12 +13,10 @@ from cadplants.families.vessels.vesselbuild import put_vessel
 from cadplants.family import Model
 from cadplants.mesh_ops import Solid, moved, sweep
 from cadplants.polygon import rounded_rectangle
-from cadplants.primitives import along, around, box, cylinder, dome, hexagon, ring, rope, turned
+from cadplants.primitives import BOTH, along, around, box, cylinder, dome, hexagon, ring, rope, turned
 from cadplants.transforms import spun
 
 __all__ = ["BUILDING_VESSELS"]
-
-_BOTH = (-1, 1)
 
 
 def _half(r: float, tall: float) -> float:
@@ -121,7 +119,7 @@ class Hydrophore(Tank, name="tank/hydrophore", weight=0.8):
         stub = [cylinder(0.4 * r, -0.02, 0.012, n), cylinder(0.016, 0.0, 0.06, 10)]
         apart(t.at(end, 0, axis).along("x"), "nozzle", *stub, of="flange")
         deck = axis + r + 0.05
-        ends = [box((0.004, 0.16, 0.07), (s * 0.25 * length, 0, deck - 0.037)) for s in _BOTH]
+        ends = [box((0.004, 0.16, 0.07), (s * 0.25 * length, 0, deck - 0.037)) for s in BOTH]
         t.add("bracket", box((0.6 * length, 0.16, 0.004), (0, 0, deck - 0.002)), *ends, of="tank")
         high = deck + 0.085
         self._pump(t.at(0, 0, high))
@@ -204,7 +202,7 @@ class Bottles(Tank, name="tank/gas bottles", weight=0.8):
         w, deep = self.count * pitch + 0.1, (self.ranks - 1) * pitch
         if base:
             t.add("skid frame", box((w, deep + pitch + 0.1, base), (0, -deep / 2, base / 2)))
-        for s in _BOTH:
+        for s in BOTH:
             t.add("post", box((side, side, 1.1 * tall), (s * (w / 2 - side / 2), r + side / 2, 0.55 * tall)))
         levels, front = [base + f * tall for f in (0.3, 0.65)], -deep - r - 0.006
         t.add("beam", *(box((w, 0.02, 0.05), (0, r + 0.01, z)) for z in levels))

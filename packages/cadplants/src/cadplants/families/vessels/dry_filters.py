@@ -11,13 +11,11 @@ from cadplants.families.vessels.exchangers import equipment_mouth, frame_of
 from cadplants.families.vessels.vessel_fittings import sides
 from cadplants.family import Model, Port
 from cadplants.mesh_ops import Solid, extrude, merge
-from cadplants.primitives import along, around, box, cylinder, hexagon, lofted, rod, turned
+from cadplants.primitives import BOTH, along, around, box, cylinder, hexagon, lofted, rod, turned
 from cadplants.standards import FLANGES
 from cadplants.transforms import at, spun
 
 __all__ = ["DRY_FILTERS"]
-
-_BOTH = (-1, 1)
 
 
 class _Filter(Device, place="floor", group="Equipment", label="filter", bundle="filter", sizes=(15,)):
@@ -47,12 +45,12 @@ class AirBox(_Filter, name="filter/air box"):
             t.add("filter", self._pleats())
             rails = [box((0.05, w, 0.06 * h), (-d / 2 - 0.025, 0, low + f * h)) for f in (0.03, 0.97)]
             t.add("filter", *rails, of="clamp")
-        for s, is_round in zip((1,) if self.pleated else _BOTH, self.rounds, strict=True):
+        for s, is_round in zip((1,) if self.pleated else BOTH, self.rounds, strict=True):
             t.at(0, 0, middle).along("x" if s > 0 else "-x").add("filter", *self._collar(t, is_round), of="clamp")
         if low > 0.2:
             t.add("skid frame", frame_of(d, w, low + 0.01, 0.04, rails=False))
         else:
-            t.add("skid frame", *(box((d, 0.06, low), (0, s * 0.4 * w, low / 2)) for s in _BOTH))
+            t.add("skid frame", *(box((d, 0.06, low), (0, s * 0.4 * w, low / 2)) for s in BOTH))
         gauge = cylinder(0.03, w / 2 - 0.005, w / 2 + 0.02, 14)
         t.at(-0.43 * d, 0, low + 0.9 * h).along("-y").add("gauge", gauge, of="dial")
         return t.model(kind="air filter")
@@ -98,9 +96,9 @@ class SpinOn(_Filter, name="filter/spin-on"):
         block = box(((self.count - 1) * pitch + 2 * r, 1.8 * r, 0.9 * r), (0, 0, axis))
         caps = [along("z", cylinder(0.98 * r, z - 0.001, z + 0.3 * r, n), x) for x in xs]
         t.add("filter", block, *caps, of="trim")
-        nuts = [hexagon(0.034, s * (half + 0.02) - 0.012, s * (half + 0.02) + 0.012) for s in _BOTH]
+        nuts = [hexagon(0.034, s * (half + 0.02) - 0.012, s * (half + 0.02) + 0.012) for s in BOTH]
         t.at(0, 0, axis).along("x").add("nut", *nuts, own=False, fine=False)
-        for s in _BOTH:
+        for s in BOTH:
             t.add("pipe", rod((s * (half - 0.01), 0, axis), (s * (half + 0.12), 0, axis), 0.013, 10))
         t.add("bracket", box((1.6 * half, 0.008, 2.2 * r), (0, back + 0.004, z + 0.3 * r)))
         t.add("post", box((0.06, 0.06, z + 1.4 * r), (0, back + 0.038, (z + 1.4 * r) / 2)))
@@ -123,7 +121,7 @@ class Press(_Filter, name="filter/press", weight=0.8):
         end, side = 0.12 + stack + self.stroke, w / 2 + 0.04
         heads = [box((0.06, w + 0.2, 1.05 * w), (x, 0, z)) for x in (0.03, 0.06 + stack + 0.03)]
         yoke = box((0.08, w + 0.2, 0.9 * w), (end + 0.04, 0, z))
-        bars = [box((end, 0.03, 0.08), (end / 2, s * (w / 2 + 0.075), z - 0.035)) for s in _BOTH]
+        bars = [box((end, 0.03, 0.08), (end / 2, s * (w / 2 + 0.075), z - 0.035)) for s in BOTH]
         t.add("filter", *heads, yoke, *bars, of="steel")
         plates = [self._plate(0.06 + (k + 0.5) * self.step) for k in range(self.count)]
         for solid in [merge(plates)] if self.joined else plates:
@@ -132,7 +130,7 @@ class Press(_Filter, name="filter/press", weight=0.8):
         t.at(0, 0, z).along("x").add("filter", *ram, of="motor")
         t.add("filter", box((stack, w, 0.03), (0.06 + stack / 2, 0, z - 0.5 * w - 0.016)), of="clamp")
         tall = z - 0.4 * w
-        legs = [box((0.08, 0.08, tall), (x, s * side, tall / 2)) for x in (0.04, end + 0.04) for s in _BOTH]
+        legs = [box((0.08, 0.08, tall), (x, s * side, tall / 2)) for x in (0.04, end + 0.04) for s in BOTH]
         t.add("tank leg", *legs, own=True)
         ports: list[Port] = []
         dn = 25 if FLANGES[40].outer > 0.4 * w else 40
@@ -143,7 +141,7 @@ class Press(_Filter, name="filter/press", weight=0.8):
     def _plate(self, x: float) -> Solid:
         """A plate with its two handles, on its place along the bars [m]."""
         w, z = self.width, self.axis
-        grips = [box((0.5 * self.step, 0.1, 0.03), (x, s * (w / 2 + 0.04), z + 0.02)) for s in _BOTH]
+        grips = [box((0.5 * self.step, 0.1, 0.03), (x, s * (w / 2 + 0.04), z + 0.02)) for s in BOTH]
         return merge([box((0.85 * self.step, w, w), (x, 0, z)), *grips])
 
 

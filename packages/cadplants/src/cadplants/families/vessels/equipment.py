@@ -14,8 +14,8 @@ from cadplants.family import Model, Port
 from cadplants.flange import nut_room, plate_thickness
 from cadplants.mesh_ops import extrude, merge, moved
 from cadplants.polygon import rounded_rectangle
-from cadplants.primitives import along, around, box, cylinder, hexagon, ring, rod, rope, torus, turned
-from cadplants.standards import FLANGES, SIZES
+from cadplants.primitives import BOTH, CORNERS, along, around, box, cylinder, hexagon, ring, rod, rope, torus, turned
+from cadplants.standards import FLANGES, sizes_between
 from cadplants.transforms import at, looking, spun
 from cadplants.valve_body import bore_of
 
@@ -23,8 +23,6 @@ __all__ = ["EQUIPMENT"]
 
 _HEX, _RAD, _BOILER = "heat exchanger", "radiator", "boiler"
 _BURNER, _FILTER, _SEPARATOR = "burner", "filter", "separator"
-_BOTH = (-1, 1)
-_CORNERS = [(x, y) for x in _BOTH for y in _BOTH]
 
 
 class _Exchanger(Equipment, label=_HEX, bundle=_HEX, weight=1.0):
@@ -80,7 +78,7 @@ class Plate(_Exchanger, name="heat exchanger/plate", weight=1.5):
         ends = [box((thick, wide * 1.15, high), (0, 0, high / 2))]
         ends.append(box((thick, wide * 1.15, tall), (thick + stack, 0, low + tall / 2)))
         ports = []
-        for s in _BOTH:
+        for s in BOTH:
             y = s * 0.28 * wide
             for f in (0.14, 0.86):
                 pose = at(-thick / 2, y, low + f * tall) @ spun("y", -np.pi / 2)
@@ -93,7 +91,7 @@ class Plate(_Exchanger, name="heat exchanger/plate", weight=1.5):
         t.add(_HEX, *(box(sheet, (x, 0, low + tall / 2)) for x in xs), of="trim")
         rails = [rod((0, 0, z), (end, 0, z), 0.02, 10) for z in (high + 0.02, low - 0.005)]
         t.add(_HEX, *rails, box((0.06, 0.12, high + 0.06), (end, 0, (high + 0.06) / 2)), of="steel")
-        spots = [(s * 0.54 * wide, low + f * tall) for s in _BOTH for f in (0.15, 0.5, 0.85)]
+        spots = [(s * 0.54 * wide, low + f * tall) for s in BOTH for f in (0.15, 0.5, 0.85)]
         ties = [rod((-0.05, y, z), (stack + thick + 0.08, y, z), 0.012, 8) for y, z in spots]
         t.add("stud", *ties, *(along("x", hexagon(0.035, -0.045, -0.02), 0, y, z) for y, z in spots))
         return t.model(kind="plate heat exchanger", ports=ports)
@@ -112,7 +110,7 @@ class Brazed(_Exchanger, name="heat exchanger/brazed"):
         step = deep / count
         ribs = [extrude((1.0 if k % 2 else 0.96) * shape, k * step, (k + 1) * step) for k in range(count)]
         stub = merge([cylinder(0.017, 0, 0.04, 12), hexagon(0.042, 0.0, 0.008)])
-        stubs = [moved(stub, at(sx * 0.28 * wide, sy * 0.36 * tall, deep - 0.001)) for sx, sy in _CORNERS]
+        stubs = [moved(stub, at(sx * 0.28 * wide, sy * 0.36 * tall, deep - 0.001)) for sx, sy in CORNERS]
         t.at(0, 0, lift + tall / 2).along("-y").add(_HEX, *ribs, *stubs, of="trim")
         high = lift + 0.3 * tall
         t.add("bracket", box((wide, 0.004, high), (0, 0.002, high / 2)), box((wide, 0.12, 0.006), (0, 0, 0.003)))
@@ -130,7 +128,7 @@ class AirCooled(_Exchanger, name="heat exchanger/air cooled"):
     def build(self, t: Table) -> Model:
         w, d, h, low = self.width, self.depth, self.height, self.low
         top, middle, small = low + h, low + h / 2, min(w, d)
-        heads = [box((0.08, d + 0.04, h + 0.06), (s * (w / 2 + 0.02), 0, middle)) for s in _BOTH]
+        heads = [box((0.08, d + 0.04, h + 0.06), (s * (w / 2 + 0.02), 0, middle)) for s in BOTH]
         mouth, turn = nozzle(40, 0.1, t.style), spun("y", -np.pi / 2)
         spots = [at(-w / 2 - 0.06, y, middle) @ turn for y in (-0.3 * d, 0.3 * d)]
         t.add(_HEX, *heads, *(moved(p.solid, spot) for spot in spots for p in mouth), of="tank")
@@ -139,7 +137,7 @@ class AirCooled(_Exchanger, name="heat exchanger/air cooled"):
         shroud = ring(0.38 * small, 0.42 * small, top + 0.1, top + 0.25, t.n(0.4))
         hood = box((w, d, 0.1), (0, 0, top + 0.05))
         t.add("blower", hood, shroud, moved(blades, at(0, 0, top + 0.2)), of="clamp")
-        t.add("column", *(box((0.06, 0.06, top), (sx * (w / 2 + 0.02), sy * d / 2, top / 2)) for sx, sy in _CORNERS))
+        t.add("column", *(box((0.06, 0.06, top), (sx * (w / 2 + 0.02), sy * d / 2, top / 2)) for sx, sy in CORNERS))
         return t.model(kind="air cooler")
 
 
@@ -162,10 +160,10 @@ class PanelRadiator(Equipment, name="radiator/panel", label=_RAD, bundle=_RAD, w
         t.add(_RAD, *(box((0.001, 0.6 * gap, 0.85 * h), (x, y, low + h / 2)) for x, y in spots))
         if self.covered:
             t.add(_RAD, box((w, deep, 0.012), (0, middle, low + h + 0.006)))
-            t.add(_RAD, *(box((0.004, deep, h), (s * w / 2, middle, low + h / 2)) for s in _BOTH))
-        ends = [(s, low + f * h) for s in _BOTH for f in (0.06, 0.94)]
+            t.add(_RAD, *(box((0.004, deep, h), (s * w / 2, middle, low + h / 2)) for s in BOTH))
+        ends = [(s, low + f * h) for s in BOTH for f in (0.06, 0.94)]
         t.add(_RAD, *(rod((s * w / 2, 0, z), (s * (w / 2 + 0.03), 0, z), 0.011, 10) for s, z in ends), of="trim")
-        t.add("bracket", *(box((0.03, 0.06, low), (s * 0.35 * w, deep / 2, low / 2)) for s in _BOTH))
+        t.add("bracket", *(box((0.03, 0.06, low), (s * 0.35 * w, deep / 2, low / 2)) for s in BOTH))
         return t.model(kind="radiator")
 
 
@@ -221,7 +219,7 @@ class Packaged(Equipment, name="boiler/packaged", label=_BOILER, bundle=_BOILER,
         for x in (-0.2 * length, 0.05 * length):
             drum += [moved(p.solid, at(x, 0, r)) for p in nozzle(80, 0.2, t.style)]
         t.at(0, 0, axis).add(_BOILER, *drum)
-        skid = [box((0.9 * length, 0.12, lift), (0, s * 0.5 * r, lift / 2)) for s in _BOTH]
+        skid = [box((0.9 * length, 0.12, lift), (0, s * 0.5 * r, lift / 2)) for s in BOTH]
         t.add(_BOILER, *skid, box((0.7 * length, 0.5 * r, 0.02), (0, 0, axis + 1.02 * r)), of="steel")
         _burner(t.bundled(_BURNER).at(-half - 0.05, 0, axis).spun("z", np.pi), 0.32 * r)
         return t.model(kind="boiler", ports=[Port(looking((-0.2 * length, 0, axis + r + 0.2), (0, 0, 1)), 80)])
@@ -339,7 +337,7 @@ class InLineSeparator(
     place="inline",
     label=_SEPARATOR,
     bundle=_SEPARATOR,
-    sizes=tuple(dn for dn in SIZES if 25 <= dn <= 150),
+    sizes=sizes_between(25, 150),
     weight=1.0,
 ):
     """An in-line air or steam separator: an upright bulb across the line with a vent above and a drain below."""

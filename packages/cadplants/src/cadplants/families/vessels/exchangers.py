@@ -16,14 +16,13 @@ from cadplants.families.vessels.vesselbuild import branch
 from cadplants.families.vessels.vesselfeet import SADDLES, Saddle
 from cadplants.family import Model, Part, Port
 from cadplants.mesh_ops import Solid, extrude, merge, moved
-from cadplants.primitives import along, around, box, cylinder, hexagon, lofted, ring, rod, rope, turned
+from cadplants.primitives import BOTH, along, around, box, cylinder, hexagon, lofted, ring, rod, rope, turned
 from cadplants.standards import FLANGES, PIPES
 from cadplants.transforms import at, spun
 
 __all__ = ["EXCHANGERS", "Equipment", "equipment_mouth", "feet_of", "frame_of"]
 
 _NAME = "heat exchanger"
-_BOTH = (-1, 1)
 
 
 class Equipment(Device, place="floor", group="Equipment", sizes=(15,), weight=0.8):
@@ -50,10 +49,10 @@ def feet_of(parts: Sequence[Part], name: str) -> list[Part]:
 def frame_of(w: float, d: float, h: float, side: float, low: float = 0.0, rails: bool = True) -> Solid:
     """Four posts of square tube with rails round their tops and feet."""
     x, y = (w - side) / 2, (d - side) / 2
-    posts = [box((side, side, h), (sx * x, sy * y, low + h / 2)) for sx in _BOTH for sy in _BOTH]
+    posts = [box((side, side, h), (sx * x, sy * y, low + h / 2)) for sx in BOTH for sy in BOTH]
     for z in (low + h - side / 2, low + 0.12 * h) if rails else ():
-        posts += [box((w, side, side), (0, s * y, z)) for s in _BOTH]
-        posts += [box((side, d, side), (s * x, 0, z)) for s in _BOTH]
+        posts += [box((w, side, side), (0, s * y, z)) for s in BOTH]
+        posts += [box((side, d, side), (s * x, 0, z)) for s in BOTH]
     return merge(posts)
 
 
@@ -175,7 +174,7 @@ class DoublePipe(_Exchanger, name="heat exchanger/double-pipe"):
             ports += equipment_mouth(t, inner, pose)
         ports += equipment_mouth(t, inner, at(-0.84 * half * last, 0, zs[-1] + ro), ro)
         high = zs[-1] + ro + 0.05
-        stand = [box((0.05, 0.05, high), (0, s * (ro + 0.035), high / 2)) for s in _BOTH]
+        stand = [box((0.05, 0.05, high), (0, s * (ro + 0.035), high / 2)) for s in BOTH]
         stand += [box((0.05, 2 * ro + 0.12, 0.03), (0, 0, z - ro - 0.0145)) for z in zs]
         for x in (-0.6 * half, 0.6 * half):
             t.at(x).add("column", *stand)
@@ -198,20 +197,20 @@ class Spiral(_Exchanger, name="heat exchanger/spiral"):
         lying.along("x").add(_NAME, cylinder(r, -half, half, n), *rims, of="tank")
         cover = turned(outline(1.07 * r, half, 1.07 * r, gap, 0.2 * r, gap), n)
         rib = (0.06, 0.015, 1.9 * r)
-        ribs = [box(rib, (s * (gap + 0.02), y, 0)) for s in _BOTH for y in (-0.35 * r, 0.35 * r)]
+        ribs = [box(rib, (s * (gap + 0.02), y, 0)) for s in BOTH for y in (-0.35 * r, 0.35 * r)]
         lying.add(_NAME, along("-x", cover), along("x", cover), *(ribs if self.ribbed else ()), of="tank")
         hook = merge([rod((0, 0, half - 0.06), (0, 0, gap + 0.05), 0.008, 6), hexagon(0.03, gap, gap + 0.02)])
         hooks = around(hook, int(np.clip(26 * r, 8, 16)), 1.05 * r)
         lying.add("bolt", along("-x", hooks), along("x", hooks))
         ports: list[Port] = []
-        spots = [(at(0, -s * 0.5 * r, axis + 0.866 * r) @ spun("x", s * np.pi / 6), r) for s in _BOTH]
+        spots = [(at(0, -s * 0.5 * r, axis + 0.866 * r) @ spun("x", s * np.pi / 6), r) for s in BOTH]
         spots += [(at(s * gap, 0, axis) @ spun("y", s * np.pi / 2), 0.0) for s in (1, -1)]
         for pose, curve in spots:
             ports += equipment_mouth(t, 80 if r > 0.45 else 50, pose, curve, 0.01)
         stand = np.array([(-0.25 * r, 0), (0.25 * r, 0), (0.1 * r, axis), (-0.1 * r, axis)])
         sheet = moved(extrude(stand, -0.01, 0.01), spun("x", np.pi / 2))
         pin = cylinder(0.06 * r + 0.01, r - 0.02, 1.1 * r + 0.03, 12)
-        for s in _BOTH:
+        for s in BOTH:
             y = s * (1.1 * r + 0.012)
             trunnion = along("y" if s > 0 else "-y", pin, 0, 0, axis)
             t.add("bracket", moved(sheet, at(0, y)), trunnion, box((0.6 * r, 0.14, 0.012), (0, y, 0.006)))
@@ -242,7 +241,7 @@ class LongPlate(_Exchanger, name="heat exchanger/plate on long bar"):
         count = int(np.clip(stack / 0.016, 10, 60))
         step, face = stack / count, thick + stack
         levels = [low + f * tall for f in (0.12, 0.37, 0.63, 0.88)]
-        spots = [(s * 0.57 * wide, z) for s in _BOTH for z in levels]
+        spots = [(s * 0.57 * wide, z) for s in BOTH for z in levels]
         feet = [box((0.12, 1.1 * wide, 0.09), (thick / 2, 0, 0.045))]
         for x, scale, more in ((0.0, 1.08, feet), (face, 1.05, [])):
             ears = [box((thick, 0.12 * wide, 0.06), (x + thick / 2, y, z)) for y, z in spots]
@@ -258,7 +257,7 @@ class LongPlate(_Exchanger, name="heat exchanger/plate on long bar"):
         for solid in [merge(sheets)] if self.joined else sheets:
             t.add(_NAME, solid, of="trim")
         ports: list[Port] = []
-        for s in _BOTH:
+        for s in BOTH:
             for z in (levels[0], levels[-1]):
                 ports += equipment_mouth(t, self.size, at(0, s * 0.27 * wide, z) @ spun("y", -np.pi / 2))
         return t.model(kind="plate heat exchanger", ports=ports)
@@ -286,7 +285,7 @@ class DryCooler(_Exchanger, name="heat exchanger/dry cooler"):
         bundle = [box((0.5 * w / count, thick, h), (x, 0, 0)) for x in np.linspace(-0.48 * w, 0.48 * w, count)]
         bundle += [rod((-0.5 * w, 0, z), (0.5 * w, 0, z), 0.012, 6) for z in np.linspace(-0.45, 0.45, 6) * h]
         ends = [rod((x, 0, -0.48 * h), (x, 0, 0.48 * h), 0.04, 12) for x in (-0.5 * w - 0.02, 0.5 * w + 0.02)]
-        for s in _BOTH:
+        for s in BOTH:
             leaning = t.at(0, s * 0.27 * d, low + h / 2).spun("x", -s * lean)
             leaning.add(_NAME, *bundle, of="trim")
             for solid in ends:
@@ -294,14 +293,14 @@ class DryCooler(_Exchanger, name="heat exchanger/dry cooler"):
         top = low + h / 2 + 0.5 * h * np.cos(lean) + 0.5 * thick * abs(np.sin(lean)) + 0.055
         self._fans(t.at(0, 0, top))
         tall, x = top - 0.06, w / 2 + 0.06
-        for sx in _BOTH:
-            for sy in _BOTH:
+        for sx in BOTH:
+            for sy in BOTH:
                 t.add("column", box((0.07, 0.07, tall), (sx * x, sy * 0.5 * d, tall / 2)))
-        for s in _BOTH if low > 0.5 else ():
+        for s in BOTH if low > 0.5 else ():
             t.add("brace", rod((s * x, -0.5 * d, 0.1), (s * x, 0.5 * d, low), 0.015, 6))
         ports: list[Port] = []
         y = (0.42 if self.vee else 0.12) * d
-        for s in _BOTH:
+        for s in BOTH:
             pose = at(-0.5 * w - 0.04, s * y, low + 0.85 * h) @ spun("y", -np.pi / 2)
             ports += equipment_mouth(t, self.size, pose)
         return t.model(kind="dry cooler", ports=ports)

@@ -24,13 +24,13 @@ from cadplants.families.vessels.vesselbuild import branch
 from cadplants.families.vessels.vesselfeet import FEET, Feet
 from cadplants.family import Model, Port
 from cadplants.mesh_ops import merge, moved
-from cadplants.primitives import along, around, box, cylinder, dome, hexagon, ring, rod, rope, torus, turned
+from cadplants.primitives import BOTH, along, around, box, cylinder, dome, hexagon, ring, rod, rope, torus, turned
 from cadplants.standards import PIPES
 from cadplants.transforms import at, spun
 
 __all__ = ["FILTERS"]
 
-_NAME, _BOTH = "filter", (-1, 1)
+_NAME = "filter"
 
 
 class _Filter(Equipment, label=_NAME, bundle=_NAME, weight=1.0):
@@ -133,7 +133,7 @@ class SandBall(_Filter, name="filter/sand ball"):
             knobs = around(box((0.03, 0.03, 0.03), (0, 0, 0.03)), 8, 0.42 * r)
             crown.add(_NAME, cylinder(0.42 * r, -0.06 * r, 0.05, n), knobs, dome(0.38 * r, 0.1 * r, 0.049, n))
             x, middle, half = r + 0.22, z - 0.02, 0.16 * stretch
-            levels = [middle + s * 0.12 * stretch for s in _BOTH]
+            levels = [middle + s * 0.12 * stretch for s in BOTH]
             arms = [rod((0.9 * r, 0, level), (x, 0, level), 0.03, 12) for level in levels]
             column = moved(cylinder(0.045, middle - half, z + half, 12), at(x))
             t.add("pipe", *arms, column, of="dial", own=True)
@@ -209,10 +209,10 @@ class Duplex(_Filter, name="filter/duplex"):
         x = 0.3 * r
         grip = rope([(-x, 0, top + 0.05), (-x, 0, top + 0.1), (x, 0, top + 0.1), (x, 0, top + 0.05)], 0.006, 6)
         for solids in ((pot, drain), (cover, grip)):
-            for s in _BOTH:
+            for s in BOTH:
                 t.at(0, s * gap).add(_NAME, *solids, of="valve")
         bolts = bolt_circle(self.bolts, 1.12 * r, 0.012, rim, top + 0.025)
-        t.add("bolt", *(moved(bolts, at(0, s * gap)) for s in _BOTH))
+        t.add("bolt", *(moved(bolts, at(0, s * gap)) for s in BOTH))
         ports: list[Port] = []
         levels = ((low + 0.25 * tall, -1), (low + 0.72 * tall, 1))
         cross = along("y", cylinder(1.15 * pr, 0.9 * r - gap, gap - 0.9 * r, k))
@@ -227,7 +227,7 @@ class Duplex(_Filter, name="filter/duplex"):
             over.add("lever", box((0.035, 0.3 + 2 * r, 0.012), (0, 0.1 + 0.6 * r, 0)), own=True)
         t.add("valve stem", *(cylinder(0.012 + 0.1 * pr, z, top + 0.12, 10) for z, _ in levels), own=True)
         foot = [box((0.05, 0.05, low + 0.1), (0, 0, (low + 0.1) / 2)), box((0.1, 0.1, 0.008), (0, 0, 0.004))]
-        spots = [at(x, s * gap) for s in _BOTH for x in (-r, r)]
+        spots = [at(x, s * gap) for s in BOTH for x in (-r, r)]
         t.add("tank leg", *(moved(one, spot) for spot in spots for one in foot), own=True)
         return t.model(kind="duplex filter", ports=ports)
 
@@ -247,7 +247,7 @@ class DiscBattery(_Filter, name="filter/disc battery", weight=0.9):
         half, k = (self.count - 1) * pitch / 2, t.n(pr)
         bell = outline(wide, 0.2, wide, 0.24, r, 0.25, 0.95 * r, 0.2 + 0.8 * tall, 0.5 * r, 0.2 + tall, 0, 0.21 + tall)
         base = [turned(outline(0.06, 0.05, r, 0.15, wide, 0.16, wide, 0.2), n)]
-        base += [rod((0, s * off, 0), (0, 0, 0.12), 0.045, 10) for s in _BOTH]
+        base += [rod((0, s * off, 0), (0, 0, 0.12), 0.045, 10) for s in BOTH]
         for x in (np.arange(self.count) - (self.count - 1) / 2) * pitch:
             spot = t.at(x, 0, low)
             spot.add(_NAME, turned(bell, n), of="rubber")
@@ -255,14 +255,14 @@ class DiscBattery(_Filter, name="filter/disc battery", weight=0.9):
             spot.add("clamp", ring(r, 1.12 * r, 0.185, 0.215, n), of="trim")
             spot.add("valve", cylinder(0.06, 0.0, 0.055, 14), of="rubber")
         ports: list[Port] = []
-        for s in _BOTH:
+        for s in BOTH:
             t.at(0, s * off, low).along("x").add("pipe", cylinder(pr, -half - 0.25, half + 0.25, k))
             end = Table(t.style, "Tank")
             ports += branch(end, "plain", self.pipe, at(-half - 0.24, s * off, low) @ spun("y", -np.pi / 2))
             for i, part in enumerate(end.parts):
                 t.add("flange" if i else "pipe", part.solid, of="flange")
         tall = low - pr + 0.01
-        stand = [box((0.05, 0.05, tall), (0, s * off, tall / 2)) for s in _BOTH]
+        stand = [box((0.05, 0.05, tall), (0, s * off, tall / 2)) for s in BOTH]
         for x in (-0.7 * half - 0.1, 0.7 * half + 0.1):
             t.at(x).add("skid frame", *stand, box((0.05, 2 * off, 0.05), (0, 0, 0.1)))
         return t.model(kind="disc filter", ports=ports)

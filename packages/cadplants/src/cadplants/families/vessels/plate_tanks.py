@@ -17,12 +17,11 @@ from cadplants.family import Model, Port
 from cadplants.mesh_ops import Solid, extrude, moved, weld
 from cadplants.mesh_ops import loft as skin
 from cadplants.polygon import rounded_rectangle, section_angle, section_channel, section_i
-from cadplants.primitives import along, box, cylinder, hexagon, lofted, ring, rod, rope, turned
+from cadplants.primitives import BOTH, along, box, cylinder, hexagon, lofted, ring, rod, rope, turned
 from cadplants.transforms import at, spun
 
 __all__ = ["PLATE_TANKS"]
 
-_BOTH = (-1, 1)
 _SQUARE = np.array([(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)])
 
 
@@ -68,10 +67,10 @@ class BucketHopper(Tank, name="tank/bucket hopper", weight=0.9):
         wide, deep = w + 0.07, d + 0.07
         x, y = (wide + side) / 2, (deep + side) / 2
         apart(t, "tank leg", frame_of(wide + 2 * side, deep + 2 * side, z + 0.03, side, rails=False))
-        beams = [box((wide, side, side), (0, s * y, z - 0.01)) for s in _BOTH]
-        t.add("beam", *beams, *(box((side, deep, side), (s * x, 0, z - 0.01)) for s in _BOTH))
+        beams = [box((wide, side, side), (0, s * y, z - 0.01)) for s in BOTH]
+        t.add("beam", *beams, *(box((side, deep, side), (s * x, 0, z - 0.01)) for s in BOTH))
         if self.braced:
-            for s in _BOTH:
+            for s in BOTH:
                 t.add("brace", bar((-x, s * y, 0.1), (x, s * y, z - 0.1), rounded_rectangle(0.05, 0.01, 0.0)))
         return t.model(kind="hopper")
 
@@ -148,12 +147,12 @@ class Sectional(Tank, name="tank/sectional panels", weight=0.7):
             for x in xs:
                 walls += [moved(panel, at(x, -d / 2, z)), moved(panel, at(x, d / 2, z) @ spun("z", np.pi))]
             for y in ys:
-                walls += [moved(panel, at(s * w / 2, y, z) @ spun("z", s * half)) for s in _BOTH]
+                walls += [moved(panel, at(s * w / 2, y, z) @ spun("z", s * half)) for s in BOTH]
         for solids in [walls] if self.joined else [[one] for one in walls]:
             t.add("shell", *solids, of="dial")
         roof = [moved(panel, at(x, y, base + h) @ spun("x", -half)) for x in xs for y in ys]
         t.add("shell", *roof, of="dial")
-        posts = [box((0.06, 0.06, h), (sx * w / 2, sy * d / 2, base + h / 2)) for sx in _BOTH for sy in _BOTH]
+        posts = [box((0.06, 0.06, h), (sx * w / 2, sy * d / 2, base + h / 2)) for sx in BOTH for sy in BOTH]
         t.add("shell", box((w + 0.02, d + 0.02, 0.02), (0, 0, base)), *posts, of="steel")
         beam, dwarf = extrude(section_i(0.12, 0.1, 0.006, 0.009), -d / 2 - 0.1, d / 2 + 0.1), base - 0.13
         for x in np.linspace(-w / 2 + 0.06, w / 2 - 0.06, self.across + 1):
@@ -205,7 +204,7 @@ class Drums(Tank, name="tank/drums", weight=0.9):
         """A drum with a tap on a cradle."""
         axis, square = 0.65, rounded_rectangle(0.04, 0.04, 0.0)
         self._drum(t.at(-0.44, 0, axis).along("x"))
-        rails = [bar((0, s * 0.3, 0.01), (0, s * 0.16, axis - 0.245), square, (1, 0, 0)) for s in _BOTH]
+        rails = [bar((0, s * 0.3, 0.01), (0, s * 0.16, axis - 0.245), square, (1, 0, 0)) for s in BOTH]
         for x in (-0.25, 0.25):
             apart(t.at(x), "saddle", *rails, box((0.04, 0.5, 0.04), (0, 0, 0.15)))
         tap = along("x", cylinder(0.014, 0.42, 0.53, 10), 0, 0, axis + 0.18)
@@ -263,9 +262,9 @@ class Fuel(Tank, name="tank/fuel", weight=0.9):
         if self.bunded:
             w, d, h, z = length + 0.3, 2 * r + 0.3, self.bund * r + 0.1, floor - 0.01
             sheets = [box((w, d, 0.01), (0, 0, floor - 0.005))]
-            sheets += [box((w, 0.006, h), (0, s * d / 2, z + h / 2)) for s in _BOTH]
-            sheets += [box((0.006, d, h), (s * w / 2, 0, z + h / 2)) for s in _BOTH]
-            t.add("tank", *sheets, *(box((w, 0.08, z), (0, s * 0.35 * d, z / 2)) for s in _BOTH))
+            sheets += [box((w, 0.006, h), (0, s * d / 2, z + h / 2)) for s in BOTH]
+            sheets += [box((0.006, d, h), (s * w / 2, 0, z + h / 2)) for s in BOTH]
+            t.add("tank", *sheets, *(box((w, 0.08, z), (0, s * 0.35 * d, z / 2)) for s in BOTH))
         crown = lying.at(0, 0, r - 0.01)
         fill = [cylinder(0.04, -0.02, 0.1, 14), cylinder(0.055, 0.09, 0.12, 14)]
         apart(crown.at(-0.3 * length), "nozzle", *fill, of="trim")
@@ -274,7 +273,7 @@ class Fuel(Tank, name="tank/fuel", weight=0.9):
         crown.at(-0.05 * length).add("level gauge", cylinder(0.05, -0.005, 0.06, 16), of="dial")
         if r > 0.5:
             lying.at(0.02 * length + 0.3, 0, r).extend(self.manway.parts(t.style, 0.24, r, 0.02))
-        for s in _BOTH:
+        for s in BOTH:
             lying.at(s * 0.42 * length, 0, r).extend(lug("plate", 0.09, t.style, r, 0.01))
         return t.model(kind="fuel tank")
 
@@ -326,12 +325,12 @@ class Buried(Tank, name="tank/buried", weight=0.7):
         wide = length + 2 * head_height(self.ends, r) + 0.2
         t.add("foundation", box((wide, 2.2 * r, bed), (0, 0, bed / 2)))
         strap = along("x", ring(0.985 * r, 1.012 * r, -0.03, 0.03, n), 0, 0, axis)
-        anchors = [rod((0, s * r, bed - 0.01), (0, s * r, axis), 0.012, 8) for s in _BOTH]
+        anchors = [rod((0, s * r, bed - 0.01), (0, s * r, axis), 0.012, 8) for s in BOTH]
         for x in np.linspace(-0.3, 0.3, self.straps) * length:
             t.at(x).add("clamp", strap, *anchors)
         for f, tower in zip((0.0,) if self.spots == 1 else (-0.28, 0.28), self.towers, strict=True):
             tower.build(middle.at(f * length), r)
-        for s in _BOTH:
+        for s in BOTH:
             out = middle.at(s * (length / 2 + 0.75 * head_height(self.ends, 0.97 * r)), 0, 0.55 * r)
             out.spun("y", s * np.pi / 2).extend(mouth("fitting", 100, 0.2, t.style, 0.0, 0.3 * r))
         return t.model(kind="buried tank")

@@ -24,12 +24,11 @@ from cadplants.families.vessels.vesselfeet import FEET, SADDLES, Feet, Saddle, b
 from cadplants.family import Model, Port
 from cadplants.mesh_ops import moved
 from cadplants.polygon import section_channel
-from cadplants.primitives import along, around, ball, box, cylinder, ring, rod, rope, torus, turned
+from cadplants.primitives import BOTH, along, around, ball, box, cylinder, ring, rod, rope, torus, turned
 from cadplants.transforms import at, spun
 
 __all__ = ["PRESSURE_VESSELS"]
 
-_BOTH = (-1, 1)
 _DISHED = "torispherical"
 _SLENDER = "height of the shell / its radius"
 
@@ -142,7 +141,7 @@ class Mixer(Tank, name="tank/open mixer", weight=0.7):
         up.add("shell", ring(0.985 * r, r, 0.0, height, n), moved(torus(r + 0.004, 0.02, n, 8), at(0, 0, height)))
         up.along("-z").add("dished head", head(self.lower, r, t.style, n))
         section = section_channel(0.12, 0.06, 0.007, 0.009)
-        for s in _BOTH:
+        for s in BOTH:
             ends = (-r - 0.05, s * 0.6 * size, z + 0.06), (r + 0.05, s * 0.6 * size, z + 0.06)
             up.add("beam", bar(*ends, section, (0.0, float(s), 0.0)))
         up.add("plate", box((1.9 * size, 1.6 * size, 0.015), (0, 0, z + 0.1275)))

@@ -12,13 +12,12 @@ from cadplants.families.vessels.vessel_fittings import sides
 from cadplants.family import Model, Part, Port
 from cadplants.mesh_ops import Solid, extrude, merge, moved
 from cadplants.polygon import rounded_rectangle
-from cadplants.primitives import along, around, box, cylinder, hexagon, lofted, ring, rod, rope, turned
+from cadplants.primitives import BOTH, along, around, box, cylinder, hexagon, lofted, ring, rod, rope, turned
 from cadplants.transforms import at, spun
 
 __all__ = ["RADIATORS", "wall_behind"]
 
 _HEX, _RAD = "heat exchanger", "radiator"
-_BOTH = (-1, 1)
 
 
 class _Radiator(Equipment, label=_RAD, bundle=_RAD, weight=0.9):
@@ -70,7 +69,7 @@ class TowelRail(_Radiator, name="radiator/towel rail"):
                 bars.append(rope(np.column_stack([s * w / 2, y, np.full(len(s), z)]), 0.011, n))
         t.add(_RAD, *bars, of="dial")
         levels = [bars[k].vertices[:, 2].mean() for k in (0, -1)]
-        holders = [rod((s * w / 2, 0, z), (s * w / 2, stand, z), 0.009, 8) for s in _BOTH for z in levels]
+        holders = [rod((s * w / 2, 0, z), (s * w / 2, stand, z), 0.009, 8) for s in BOTH for z in levels]
         t.add("bracket", *holders, of="trim")
         t.extend([wall_behind(w + 0.8, top + 0.4, stand)])
         body = [cylinder(0.012, low - 0.09, low + 0.002, 10), hexagon(0.026, low - 0.04, low - 0.015)]
@@ -93,8 +92,8 @@ class Convector(_Radiator, name="radiator/convector"):
     def build(self, t: Table) -> Model:
         w, h, d, low, sheet = self.width, self.height, self.depth, self.low, 0.003
         up, top = t.at(0, 0, self.lift), low + h
-        case = [box((w, sheet, h), (0, s * (d - sheet) / 2, low + h / 2)) for s in _BOTH]
-        case += [box((sheet, d, h), (s * (w - sheet) / 2, 0, low + h / 2)) for s in _BOTH]
+        case = [box((w, sheet, h), (0, s * (d - sheet) / 2, low + h / 2)) for s in BOTH]
+        case += [box((sheet, d, h), (s * (w - sheet) / 2, 0, low + h / 2)) for s in BOTH]
         up.add(_RAD, *case, of="dial")
         ys = np.linspace(-d / 2 + 0.012, d / 2 - 0.012, max(4, int(d / 0.014)))
         bars = [box((w - 2 * sheet, 0.003, 0.02), (0, y, top - 0.01)) for y in ys]
@@ -106,7 +105,7 @@ class Convector(_Radiator, name="radiator/convector"):
         up.add(_RAD, *fins, *tubes, of="trim")
         if self.footed:
             _valve(t, -w / 2 - 0.06, -0.2 * d, z, -1)
-            t.add("bracket", *(box((0.04, 0.9 * d, low + 0.01), (s * 0.35 * w, 0, (low + 0.01) / 2)) for s in _BOTH))
+            t.add("bracket", *(box((0.04, 0.9 * d, low + 0.01), (s * 0.35 * w, 0, (low + 0.01) / 2)) for s in BOTH))
         else:
             t.extend([wall_behind(w + 0.6, 1.2, d / 2)])
         return t.model(kind="convector")
@@ -200,7 +199,7 @@ class Plinth(_Radiator, name="radiator/plinth", weight=0.8):
         tubes = [moved(flat if self.flat else tube, at(0, y, z)) for y, z in spots]
         for solid in [merge(tubes)] if self.joined else tubes:
             t.add(_RAD, solid, of="dial")
-        ends = [box((0.035, deep + 0.03, tall), (s * (w / 2 + 0.012), middle, low + tall / 2)) for s in _BOTH]
+        ends = [box((0.035, deep + 0.03, tall), (s * (w / 2 + 0.012), middle, low + tall / 2)) for s in BOTH]
         t.add(_RAD, *ends, of="dial")
         if self.finned:
             ys = (np.arange(self.columns - 1) + 0.5) * gap
@@ -212,7 +211,7 @@ class Plinth(_Radiator, name="radiator/plinth", weight=0.8):
             t.add(_RAD, *slats, *(box((w, 0.012, 0.006), (0, y, top)) for y in (0.0, deep)), of="clamp")
         foot = [box((0.03, deep + 0.02, low + 0.006), (0, middle, (low + 0.006) / 2))]
         foot.append(box((0.08, deep + 0.08, 0.005), (0, middle, 0.0025)))
-        t.add("bracket", *(moved(merge(foot), at(s * 0.36 * w)) for s in _BOTH))
+        t.add("bracket", *(moved(merge(foot), at(s * 0.36 * w)) for s in BOTH))
         _valve(t, w / 2 + 0.074, middle, z0, 1)
         return t.model(kind="plinth radiator")
 
@@ -232,10 +231,10 @@ class DuctCoil(_Exchanger, name="heat exchanger/duct coil"):
         w, h, rows, low = self.width, self.height, self.tube_rows, self.low
         deep, r, x = 0.05 + 0.033 * rows, 0.017 + 0.01 * h, -w / 2 - 0.05
         frame = [box((w, deep, 0.003), (0, 0, low + z)) for z in (0.0, h)]
-        frame += [box((0.003, deep, h), (s * w / 2, 0, low + h / 2)) for s in _BOTH]
+        frame += [box((0.003, deep, h), (s * w / 2, 0, low + h / 2)) for s in BOTH]
         hem, side = (w + 0.06, 0.003, 0.03), (0.03, 0.003, h)
-        frame += [box(hem, (0, s * deep / 2, low + z)) for s in _BOTH for z in (-0.013, h + 0.013)]
-        frame += [box(side, (e * (w / 2 + 0.015), s * deep / 2, low + h / 2)) for s in _BOTH for e in _BOTH]
+        frame += [box(hem, (0, s * deep / 2, low + z)) for s in BOTH for z in (-0.013, h + 0.013)]
+        frame += [box(side, (e * (w / 2 + 0.015), s * deep / 2, low + h / 2)) for s in BOTH for e in BOTH]
         t.add(_HEX, *frame, of="clamp")
         fin = (0.001, 0.8 * deep, h - 0.004)
         t.add(_HEX, *(box(fin, (x_, 0, low + h / 2)) for x_ in np.linspace(-0.48, 0.48, 60) * w), of="trim")
@@ -244,7 +243,7 @@ class DuctCoil(_Exchanger, name="heat exchanger/duct coil"):
         ys, zs = (np.arange(rows) - (rows - 1) / 2) * 0.033, np.arange(low + 0.05, low + h - 0.04, 0.075)
         t.add(_HEX, *(moved(bend, at(0, y, z)) for y in ys for z in zs), of="pipe")
         heads, stubs, n = [], [], t.n(r)
-        for s in _BOTH:
+        for s in BOTH:
             y, z = s * (deep / 2 + r + 0.005), low + (0.1 if s > 0 else h - 0.1)
             heads.append(rod((x, y, low + 0.04), (x, y, low + h - 0.04), r, n))
             stubs.append(rod((x, y, z), (-w / 2 - 0.2, y, z), 0.8 * r, n))
@@ -252,7 +251,7 @@ class DuctCoil(_Exchanger, name="heat exchanger/duct coil"):
             stubs += [rod((-w / 2 + 0.002, s * 0.3 * deep, z), (x, y, z), 0.006, 6) for z in levels]
         t.add(_HEX, *heads, *stubs, of="pipe")
         tall = low - 0.0015
-        t.add("bracket", *(box((0.05, deep, tall), (s * 0.4 * w, 0, tall / 2)) for s in _BOTH))
+        t.add("bracket", *(box((0.05, deep, tall), (s * 0.4 * w, 0, tall / 2)) for s in BOTH))
         return t.model(kind="duct coil")
 
 
@@ -300,7 +299,7 @@ class CoolingTower(_Exchanger, name="heat exchanger/cooling tower"):
 
     def _box(self, h: float) -> tuple[Solid, list[Solid], list[Solid], list[Solid]]:
         """Basin, casing, louvres and feet of a square one."""
-        r, low, corners = self.radius, self.low, [(x, y) for x in _BOTH for y in _BOTH]
+        r, low, corners = self.radius, self.low, [(x, y) for x in BOTH for y in BOTH]
         post, x = (0.06, 0.06, h - 0.34), r - 0.03
         casing = [box((2 * r, 2 * r, 0.45 * h), (0, 0, low + 0.765 * h))]
         casing += [box(post, (sx * x, sy * x, low + 0.34 + (h - 0.35) / 2)) for sx, sy in corners]

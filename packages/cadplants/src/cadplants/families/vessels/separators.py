@@ -25,13 +25,13 @@ from cadplants.family import Model, Port
 from cadplants.flange import nut_room, plate_thickness
 from cadplants.mesh_ops import Solid, extrude, merge, moved
 from cadplants.polygon import rounded_rectangle
-from cadplants.primitives import along, around, box, cylinder, dome, hexagon, lofted, ring, rod, rope, turned
-from cadplants.standards import FLANGES, SIZES
+from cadplants.primitives import BOTH, along, around, box, cylinder, dome, hexagon, lofted, ring, rod, rope, turned
+from cadplants.standards import FLANGES, sizes_between
 from cadplants.transforms import at, spun
 
 __all__ = ["SEPARATORS"]
 
-_NAME, _BOTH = "separator", (-1, 1)
+_NAME = "separator"
 
 
 def _sizes(some: tuple[int, ...], most: float) -> list[int]:
@@ -134,10 +134,10 @@ class Lamella(_Separator, name="separator/lamella"):
         w, d, h, low, sheet = self.width, self.depth, self.height, self.low, 0.008
         z = low + self.cone
         up, deep, middle = t.at(0, 0, z), d - 2 * sheet, h / 2
-        walls = [box((w, sheet, h), (0, s * (d - sheet) / 2, middle)) for s in _BOTH]
-        walls += [box((sheet, deep, h), (s * (w - sheet) / 2, 0, middle)) for s in _BOTH]
-        walls += [box((w + 0.1, 0.05, 0.05), (0, s * (d / 2 + 0.025), h - 0.025)) for s in _BOTH]
-        walls += [box((0.05, d, 0.05), (s * (w / 2 + 0.025), 0, h - 0.025)) for s in _BOTH]
+        walls = [box((w, sheet, h), (0, s * (d - sheet) / 2, middle)) for s in BOTH]
+        walls += [box((sheet, deep, h), (s * (w - sheet) / 2, 0, middle)) for s in BOTH]
+        walls += [box((w + 0.1, 0.05, 0.05), (0, s * (d / 2 + 0.025), h - 0.025)) for s in BOTH]
+        walls += [box((0.05, d, 0.05), (s * (w / 2 + 0.025), 0, h - 0.025)) for s in BOTH]
         up.add(_NAME, *walls, of="tank")
         square = np.array(outline(-0.5, -0.5, 0.5, -0.5, 0.5, 0.5, -0.5, 0.5))
         steps = (((0.2, 0.2), -self.cone), ((w, d), 0.0), ((w, d), 0.01))
@@ -148,7 +148,7 @@ class Lamella(_Separator, name="separator/lamella"):
         up.add(_NAME, *(moved(plate, at(x, 0, 0.45 * h)) for x in xs), of="dial")
         up.add(_NAME, box((sheet, deep, 0.6 * h), (0.38 * w, 0, 0.6 * h)), of="trim")
         t.add("column", frame_of(w + 0.1, d + 0.1, z + 0.3 * h, 0.08, rails=False))
-        up.add("beam", *(box((w + 0.1, 0.06, 0.1), (0, s * (d / 2 + 0.03), 0.05)) for s in _BOTH))
+        up.add("beam", *(box((w + 0.1, 0.06, 0.1), (0, s * (d / 2 + 0.03), 0.05)) for s in BOTH))
         ports: list[Port] = []
         for s, level in ((-1, 0.35), (1, 0.75)):
             ports += equipment_mouth(t, self.size, at(s * w / 2, 0, z + level * h) @ spun("y", s * np.pi / 2))
@@ -176,7 +176,7 @@ class OilBox(_Separator, name="separator/oil box"):
         lid = box((0.96 * pitch, d + 0.04, 0.025), (0, 0, 0.0125)), handle(0, 0.06, 0.02, 0.06, 0.006, 6)
         for k in range(count):
             t.at((k + 0.5) * pitch - w / 2, 0, top).add(_NAME, *lid, of="dial")
-        t.add("skid frame", *(box((w, 0.08, base), (0, s * 0.38 * d, base / 2)) for s in _BOTH))
+        t.add("skid frame", *(box((w, 0.08, base), (0, s * 0.38 * d, base / 2)) for s in BOTH))
         ports: list[Port] = []
         for s, f in ((-1, 0.78), (1, 0.7)):
             ports += equipment_mouth(t, self.size, at(s * w / 2, 0, base + f * h) @ spun("y", s * np.pi / 2))
@@ -241,7 +241,7 @@ class Decanter(_Separator, name="separator/decanter", weight=0.8):
         lower = box((length, 2 * r, r), (0, 0, -r / 2))
         axis.add(_NAME, lower, box((length + 0.04, 2 * r + 0.12, 0.03)), of="valve")
         axis.along("x").add(_NAME, cylinder(r, -half, half, n), of="trim")
-        bearings = [box((0.16, 1.1 * r, 1.3 * r), (s * (half + 0.1), 0, -0.1 * r)) for s in _BOTH]
+        bearings = [box((0.16, 1.1 * r, 1.3 * r), (s * (half + 0.1), 0, -0.1 * r)) for s in BOTH]
         axis.add(_NAME, *bearings, of="valve")
         chute = (0.22, 0.9 * r, z - r - 0.02)
         t.add(_NAME, *(box(chute, (x, 0, (z - r) / 2 + 0.01)) for x in (-0.76 * half, 0.76 * half)), of="trim")
@@ -250,7 +250,7 @@ class Decanter(_Separator, name="separator/decanter", weight=0.8):
         axis.add("coupling guard", *guards, own=True)
         motor = cylinder(0.55 * r, -half - 0.19, 0.3 - half, n)
         axis.at(0, 1.75 * r, -0.6 * r).along("-x").add("motor", motor, own=True)
-        base = [box((length + 0.9, 0.14, 0.2), (0.1, s * 0.8 * r, 0.15)) for s in _BOTH]
+        base = [box((length + 0.9, 0.14, 0.2), (0.1, s * 0.8 * r, 0.15)) for s in BOTH]
         base += [box((0.14, 1.6 * r, 0.2), (x, 0, 0.15)) for x in (-half, 0.0, half)]
         props = [(0.12, 1.5 * r, z - 0.75 * r)] * 2 + [(0.45, 0.9 * r, z - 1.15 * r)]
         spots = ((-half - 0.1, 0), (half + 0.1, 0), (half - 0.05, 1.5 * r))
@@ -258,7 +258,7 @@ class Decanter(_Separator, name="separator/decanter", weight=0.8):
             base.append(box((w, d, high - 0.24), (x, y, (high + 0.24) / 2)))
         t.add("skid frame", *base)
         xs = (-half - 0.2, half + 0.3)
-        pads = [box((0.16, 0.16, 0.05), (x, s * 0.8 * r, 0.025)) for x in xs for s in _BOTH]
+        pads = [box((0.16, 0.16, 0.05), (x, s * 0.8 * r, 0.025)) for x in xs for s in BOTH]
         t.add("base plate", *pads, of="rubber")
         axis.add(_NAME, rod((-half - 0.5, 0, 0), (-half - 0.1, 0, 0), 0.03, 12), of="pipe")
         return t.model(kind="decanter centrifuge")
@@ -286,13 +286,13 @@ class Hydrocyclones(_Separator, name="separator/hydrocyclones", weight=0.9):
         span, deep, up = (self.count - 1) * pitch + 4 * r, 8 * r, t.at(0, 0, low)
         for y, z in ((3.5 * r, inlet), (2.0 * r, over)):
             up.at(0, y, z).along("x").add(_NAME, cylinder(0.8 * r, -span / 2, span / 2, n), of="pipe")
-        trough = [box((span, 0.006, 0.2), (0, s * 2 * r, -0.07)) for s in _BOTH]
+        trough = [box((span, 0.006, 0.2), (0, s * 2 * r, -0.07)) for s in BOTH]
         trough.append(box((span, 4 * r, 0.006), (0, 0, -0.17)))
-        up.add(_NAME, *trough, *(box((0.006, 4 * r, 0.2), (s * span / 2, 0, -0.07)) for s in _BOTH), of="clamp")
+        up.add(_NAME, *trough, *(box((0.006, 4 * r, 0.2), (s * span / 2, 0, -0.07)) for s in BOTH), of="clamp")
         frame, shelf = frame_of(span + 0.12, deep, low + 0.8 * tall, 0.06, rails=False), low + 0.72 * tall
-        bars = [box((span, 0.05, 0.05), (0, s * 1.1 * r, shelf)) for s in _BOTH]
+        bars = [box((span, 0.05, 0.05), (0, s * 1.1 * r, shelf)) for s in BOTH]
         levels = (shelf, low - 0.198)
-        bars += [box((0.06, deep, 0.05), (s * (span / 2 + 0.03), 0, z)) for s in _BOTH for z in levels]
+        bars += [box((0.06, deep, 0.05), (s * (span / 2 + 0.03), 0, z)) for s in BOTH for z in levels]
         t.add("skid frame", frame, *bars, box((span, 4 * r, 0.05), (0, 0, low - 0.198)))
         return t.model(kind="hydrocyclone")
 
@@ -308,7 +308,7 @@ class _InLine(Equipment, place="inline", label=_NAME, bundle=_NAME):
         return length, body
 
 
-class AirPot(_InLine, name="separator/air pot", sizes=tuple(dn for dn in SIZES if 32 <= dn <= 200)):
+class AirPot(_InLine, name="separator/air pot", sizes=sizes_between(32, 200)):
     """An air and dirt separator in a line: a pot offset up or down from it with a vent valve, a drain cock, a split."""
 
     wall: float = between(0.02, 0.05, "radius of the pot, but for 1.8 of the pipe's", "m")
@@ -337,7 +337,7 @@ class AirPot(_InLine, name="separator/air pot", sizes=tuple(dn for dn in SIZES i
         return t.model(length, kind="air separator")
 
 
-class SteamBaffle(_InLine, name="separator/steam baffle", sizes=tuple(dn for dn in SIZES if 25 <= dn <= 150)):
+class SteamBaffle(_InLine, name="separator/steam baffle", sizes=sizes_between(25, 150)):
     """A steam or gas separator in a line: a barrel of one size more under it, with a flanged lid and drip leg."""
 
     deep: float = between(1.6, 3.2, "depth of the drip leg / radius of the barrel")

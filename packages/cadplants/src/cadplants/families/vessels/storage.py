@@ -23,12 +23,10 @@ from cadplants.families.vessels.vesselfeet import FEET, Feet, foot_plate, ladder
 from cadplants.family import Model, Port
 from cadplants.mesh_ops import Solid, merge, moved, revolve, sweep, weld
 from cadplants.polygon import circle, rounded_rectangle
-from cadplants.primitives import along, around, box, cylinder, lofted, ring, rod, rope, torus, turned
+from cadplants.primitives import BOTH, along, around, box, cylinder, lofted, ring, rod, rope, torus, turned
 from cadplants.transforms import at, spun
 
 __all__ = ["STORAGE"]
-
-_BOTH = (-1, 1)
 
 
 class _Courses(Params):
@@ -451,7 +449,7 @@ class BulkContainer(Tank, name="tank/bulk container"):
         t.add("shell", lofted(loops), of="dial")
         t.at(0, 0, top).extend(self.lid.parts(t.style, 0.115, 0.0, 0.02))
         xs, ys = np.linspace(-w / 2, w / 2, self.along_bars), np.linspace(-d / 2, d / 2, self.across_bars)[1:-1]
-        spots = [(x, s * d / 2) for x in xs for s in _BOTH] + [(s * w / 2, y) for y in ys for s in _BOTH]
+        spots = [(x, s * d / 2) for x in xs for s in BOTH] + [(s * w / 2, y) for y in ys for s in BOTH]
         bars = [rod((x, y, base), (x, y, top + 0.02), 0.009, n) for x, y in spots]
         hoop = rounded_rectangle(w, d, 0.05, 2)
         for z in np.linspace(base + 0.08, top + 0.02, self.hoops):

@@ -15,12 +15,10 @@ from cadplants.family import Part
 from cadplants.mesh_ops import Solid, extrude, merge, moved, revolve, sweep, weld
 from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import rounded_rectangle, section_angle, section_channel, section_i
-from cadplants.primitives import around, box, cylinder, hexagon, ring, rod, torus
+from cadplants.primitives import BOTH, around, box, cylinder, hexagon, ring, rod, torus
 from cadplants.transforms import at, spun
 
 __all__ = ["FEET", "SADDLES", "Feet", "Saddle", "bar", "foot_plate", "ladder", "ringed_rail"]
-
-_BOTH = (-1, 1)
 
 
 def bar(
@@ -77,7 +75,7 @@ class Ribbed(Saddle):
         t.add("saddle", web, *ribs)
         t.add("saddle", _across(wear, axis))
         t.add("saddle", box((1.3 * wide, 2.0 * r, 0.015), (0, 0, 0.0075)))
-        _anchors(t, [(0.0, s * 0.9 * r) for s in _BOTH], 0.02, 0.015)
+        _anchors(t, [(0.0, s * 0.9 * r) for s in BOTH], 0.02, 0.015)
 
 
 class Pier(Saddle):
@@ -121,11 +119,11 @@ class Sheet(Saddle):
         y, z = r * np.sin(half), axis - r * np.cos(half)
         foot, walls = self.flare * y, []
         section = np.array(outline(0.5, -0.5, 0.5, 0.5, -0.5, 0.5, -0.5, -0.5)) * (wide, thick)
-        for s in _BOTH:
+        for s in BOTH:
             path = np.array([(0, s * y, z), (0, s * foot, thick / 2), (0, s * (foot + 0.06), thick / 2)], float)
             walls.append(sweep(path, section, up=(1.0, 0.0, 0.0)))
         t.add("saddle", _across(seat, axis), *walls, own=False)
-        _anchors(t, [(0.0, s * (foot + 0.035)) for s in _BOTH], 0.012, thick)
+        _anchors(t, [(0.0, s * (foot + 0.035)) for s in BOTH], 0.012, thick)
 
 
 class Framed(Saddle):
@@ -149,12 +147,12 @@ class Framed(Saddle):
             "beam": section_i(side, side, 0.07 * side, 0.1 * side),
         }
         up, section = (1.0, 0.0, 0.0), sections[self.section]
-        legs = [bar((0, s * (y + lean), 0.01), (0, s * y, top), section, up) for s in _BOTH]
+        legs = [bar((0, s * (y + lean), 0.01), (0, s * y, top), section, up) for s in BOTH]
         level = self.level * (axis - r)
         reach = y + lean * (1 - level / top)
         cross = bar((0, -reach, level), (0, reach, level), rounded_rectangle(0.7 * side, 0.7 * side, 0.0))
         t.add("saddle", _across(strip, axis), *legs, cross, own=False)
-        for s in _BOTH:
+        for s in BOTH:
             t.add("base plate", foot_plate(0, s * (y + lean), 2.0 * side))
 
 
@@ -387,8 +385,8 @@ class Brackets(Feet):
             t.spun("z", k * np.pi / 2).at(r, 0, lift).add("tank leg", one)
         w, tall = r + 0.6 * reach, 1.3 * side
         post = extrude(section_i(side, side, 0.08 * side, 0.1 * side), 0.012, z - tall)
-        for sx in _BOTH:
-            for sy in _BOTH:
+        for sx in BOTH:
+            for sy in BOTH:
                 t.at(sx * w, sy * w).add("column", post)
                 t.at(sx * w, sy * w).add("base plate", foot_plate(0, 0, 2 * side))
         section = section_channel(tall, 0.6 * side, 0.1 * side, 0.12 * side) - [0.3 * side, 0]
@@ -411,10 +409,10 @@ FEET: Mapping[str, type[Feet]] = {
 def ladder(x: float, low: float, high: float, style: ModelingStyle, caged: bool, spacers: float) -> Solid:
     """A ladder beside a shell (ISO 14122-4) at ``x`` from the axis, its spacers reaching back this far [m]."""
     n, wide = max(6, min(10, style.round(0.02))), 0.4
-    solids = [rod((x, s * wide / 2, low), (x, s * wide / 2, high), 0.02, n) for s in _BOTH]
+    solids = [rod((x, s * wide / 2, low), (x, s * wide / 2, high), 0.02, n) for s in BOTH]
     solids += [rod((x, -wide / 2, z), (x, wide / 2, z), 0.011, 6) for z in np.arange(low + 0.25, high - 0.05, 0.28)]
     for z in np.arange(low + 0.4, high - 0.9, 1.5):
-        solids += [box((spacers, 0.05, 0.01), (x - spacers / 2, s * wide / 2, z)) for s in _BOTH]
+        solids += [box((spacers, 0.05, 0.01), (x - spacers / 2, s * wide / 2, z)) for s in BOTH]
     if caged and high - low > 2.8:
         a = np.linspace(-np.pi / 2, np.pi / 2, 9)
         hoop = np.column_stack([x + 0.1 + 0.6 * np.cos(a), 0.36 * np.sin(a), np.zeros(9)])
