@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from cadplants.families.chance import chance, num
+from cadplants.chance import chance, num
 from cadplants.modeling_style import ModelingStyle
 
 __all__ = [

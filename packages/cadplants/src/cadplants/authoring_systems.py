@@ -30,9 +30,9 @@ from cadplants.authoring_styles import (
     skid_defects,
     skid_style,
 )
+from cadplants.chance import chance
 from cadplants.defects import Defects, degrade
 from cadplants.drawn_styles import draw_modeling_style
-from cadplants.families.chance import chance
 from cadplants.modeling_style import ModelingStyle
 from cadplants.omissions import OMISSIONS, omitted
 from cadplants.plant import Plant

@@ -1,15 +1,16 @@
-"""What each of several values is drawn by, for ``several``: a number, a choice, a chance, a piece."""
+"""What fields are drawn by: each of several values, for ``several``; pieces of some makes; of what form one is."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from typing import Any, TypeVar
+from collections.abc import Callable, Mapping, Sequence
+from functools import cache
+from typing import Any, TypeVar, cast
 
 import numpy as np
 
-from cadplants.builder.params import Params, When
+from cadplants.builder.params import Params, When, among
 
-__all__ = ["made", "number", "of_form", "one_of", "yes"]
+__all__ = ["made", "number", "of_form", "of_makes", "one_of", "yes"]
 
 Rng = np.random.Generator
 T = TypeVar("T")
@@ -39,3 +40,20 @@ def made(piece: type[P], fixed: Callable[[Any], Mapping[str, Any]] = lambda _: {
 def of_form(*forms: str) -> When:
     """Tells whether something is of one of these forms, by its field ``form``: a ``when``."""
     return lambda p: p.form in forms
+
+
+@cache
+def of_makes(
+    kind: type[P], makes: tuple[str, ...], fit: Callable[[tuple[str, ...], float], Sequence[str]] | None = None
+) -> type[P]:
+    """A class of pieces as another, whose field ``make`` is drawn from some makes only.
+
+    Args:
+        kind: the class.
+        makes: to draw from; what stands twice is twice as likely.
+        fit: which of them there are in their place for a field ``radius`` [m]; they themselves if None.
+    """
+    choices = makes if fit is None else lambda p: fit(makes, p.radius)
+    make = among(choices, kind.fields()["make"].about)
+    said = {"make": make, "__annotations__": {"make": "str"}, "__doc__": kind.__doc__, "__module__": kind.__module__}
+    return cast(type[P], type(kind.__name__, (kind,), said))

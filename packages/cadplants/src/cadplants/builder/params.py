@@ -300,44 +300,41 @@ def nested(
 
 
 def several(
-    draw: Callable[[Rng, Any], T], count: Callable[[Any], int], about: str, unit: str = "", *, when: When | None = None
+    draw: Callable[[Rng, Any], T],
+    count: int | Callable[[Any], int],
+    about: str,
+    unit: str = "",
+    *,
+    when: When | None = None,
 ) -> tuple[T, ...]:
-    """As many values as the fields before say, one after the other."""
-
-    def sample(source: Source, before: Any) -> tuple[T, ...]:
-        rng = source.rng
-        return tuple(draw(rng, before) for _ in range(count(before)))
-
-    return _field(Field(about, unit, "one each", sample, _as_many(count), when, ()))  # type: ignore[no-any-return]
+    """As many values as are said, or as the fields before say, one after the other."""
+    return each(lambda rng, before, _: draw(rng, before), count, about, unit, when=when)
 
 
 def each(
     draw: Callable[[Rng, Any, tuple[T, ...]], T],
-    count: Callable[[Any], int],
+    count: int | Callable[[Any], int],
     about: str,
     unit: str = "",
     *,
     when: When | None = None,
 ) -> tuple[T, ...]:
     """As ``several``, but what is drawn may follow from those before: how many they are, what they were."""
+    how_many: Callable[[Any], int] = count if callable(count) else lambda _: count
 
     def sample(source: Source, before: Any) -> tuple[T, ...]:
         rng = source.rng
         found: tuple[T, ...] = ()
-        for _ in range(count(before)):
+        for _ in range(how_many(before)):
             found = (*found, draw(rng, before, found))
         return found
 
-    return _field(Field(about, unit, "one each", sample, _as_many(count), when, ()))  # type: ignore[no-any-return]
-
-
-def _as_many(count: Callable[[Any], int]) -> Callable[[Any, Any], tuple[Any, ...]]:
-    def accept(value: Any, before: Any) -> tuple[Any, ...]:
-        if not isinstance(value, (list, tuple)) or len(value) != count(before):
-            raise ValueError(f"give {count(before)} values")
+    def accept(value: Any, before: Any) -> tuple[T, ...]:
+        if not isinstance(value, (list, tuple)) or len(value) != how_many(before):
+            raise ValueError(f"give {how_many(before)} values")
         return tuple(value)
 
-    return accept
+    return _field(Field(about, unit, "one each", sample, accept, when, ()))  # type: ignore[no-any-return]
 
 
 @dataclass_transform(
@@ -385,9 +382,9 @@ class Params:
         unknown = [key for key in (*given, *fixed) if key.split(".")[0] not in specs]
         if unknown:
             raise ValueError(f"{unknown[0]}: no parameter; there are {', '.join(specs) or 'none'}")
-        values: dict[str, Any] = {}
+        before = SimpleNamespace()
+        values = vars(before)
         for name, spec in specs.items():
-            before = SimpleNamespace(**values)
             inner = _below(name, given), _below(name, fixed)
             if name in fixed:
                 _refuse_others(name, given, fixed[name], "as the style or the rest of the device has it")

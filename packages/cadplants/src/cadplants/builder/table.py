@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache
 from typing import Any
@@ -172,6 +172,18 @@ class Table:
             turns,
         )
         self.extend([part])
+
+    def add_each(self, name: str, solids: Iterable[Solid], *, joined: bool = False, **more: Any) -> None:
+        """Puts solids down each as a part of its own, or joined as one.
+
+        Args:
+            name: as of ``add``.
+            solids: in the frame.
+            joined: whether they are one part.
+            more: as of ``add``.
+        """
+        for some in [list(solids)] if joined else [[one] for one in solids]:
+            self.add(name, *some, **more)
 
     def extend(self, parts: Sequence[Part]) -> None:
         """Puts finished parts down, in the frame."""

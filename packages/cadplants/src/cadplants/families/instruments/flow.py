@@ -8,6 +8,7 @@ import numpy as np
 
 from cadplants.builder.device import families_of
 from cadplants.builder.dials import STEM, Gland, Housing
+from cadplants.builder.draws import made
 from cadplants.builder.params import Params, among, between, chance, given, nested, several, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.instruments.pieces import Gauge, bent, put, t_handle
@@ -301,7 +302,7 @@ class BoxyRemote(FlowMeter, name="flow meter/boxy remote"):
     boxy: bool = chance(0.5, "its casing is square, not eight-sided")
     wide: float = between(0.07, 0.12, "width of the terminal box", "m")
     tall: float = between(0.04, 0.07, "height of the terminal box", "m")
-    glands: tuple[Gland, ...] = several(lambda rng, _: Gland.draw(rng), lambda _: 2, "cable glands")
+    glands: tuple[Gland, ...] = several(made(Gland), 2, "cable glands")
 
     def build(self, t: Table) -> Model:
         length = round(max(0.2, self.long * t.pipe.outer + 0.06), 6)

@@ -23,6 +23,7 @@ from cadplants.builder.dials import (
     fine_sides,
     upright,
 )  # fmt: skip
+from cadplants.builder.draws import made, yes
 from cadplants.builder.params import Source, among, between, chance, nested, several, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.instruments.pieces import FRONT, Gauge, put, t_handle
@@ -192,9 +193,7 @@ class Screen(Gauge, name="gauge/screen"):
     deep: float = between(0.03, 0.05, "depth of its case", "m")
     low: float = between(0.03, 0.07, "height of its stem", "m")
     columns: int = whole(2, 4, "keys side by side")
-    single: tuple[bool, ...] = several(
-        lambda rng, _: bool(rng.random() < 0.5), lambda p: p.columns, "whether a column has one key, not two"
-    )
+    single: tuple[bool, ...] = several(yes(0.5), lambda p: p.columns, "whether a column has one key, not two")
     bumper: bool = chance(0.5, "a bumper round it")
 
     def build(self, t: Table) -> Model:
@@ -246,7 +245,7 @@ class Duplex(Gauge, name="gauge/duplex"):
     design: str = among(("plain", "cast"), "how its case is made")
     dial: Dial = nested(lambda s, p: Dial.draw(s, {"design": p.design, "deep": 0.4}), "case with its dial")
     second: Needle = nested(Needle, "second needle")
-    feet: tuple[Shank, ...] = several(lambda rng, _: Shank.draw(rng), lambda _: 2, "connections")
+    feet: tuple[Shank, ...] = several(made(Shank), 2, "connections")
 
     def build(self, t: Table) -> Model:
         size, tall, apart = self.size, self.tall, 0.22 * self.size

@@ -6,6 +6,7 @@ import numpy as np
 
 from cadplants.builder.device import families_of
 from cadplants.builder.dials import CASE, STEM, Dial, Gland, Housing, fine_sides
+from cadplants.builder.draws import made
 from cadplants.builder.params import Params, among, between, chance, given, nested, several, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.instruments.pieces import Board, Gauge, bent, put
@@ -272,9 +273,7 @@ class Furnace(_Thermowell, name="thermowell/furnace", place="floor"):
     deep: float = between(0.15, 0.3, "thickness of the wall", "m")
     count: int = whole(1, 3, "thermocouples")
     radius: float = between(0.0075, 0.013, "of their tubes", "m")
-    thermocouples: tuple[_Thermocouple, ...] = several(
-        lambda rng, _: _Thermocouple.draw(rng), lambda p: p.count, "thermocouples"
-    )
+    thermocouples: tuple[_Thermocouple, ...] = several(made(_Thermocouple), lambda p: p.count, "thermocouples")
 
     def build(self, t: Table) -> Model:
         wide, tall, deep = self.wide, self.tall, self.deep

@@ -7,6 +7,7 @@ import numpy as np
 from cadgraph.model.scene import Floats
 from cadplants.builder.device import families_of
 from cadplants.builder.dials import CASE, STEM, Dial, Indicator, Shank, StandingGauge, fine_sides, upright
+from cadplants.builder.draws import made
 from cadplants.builder.params import Params, among, between, chance, given, nested, several, whole
 from cadplants.builder.table import Table
 from cadplants.families.instruments.pieces import FRONT, Board, Gauge, Stand, bent, put, t_handle
@@ -38,13 +39,13 @@ class OnPanel(_Mounted, name="gauge/panel"):
     board: Board = nested(Board, "what they are let into")
     form: int = whole(0, 2, "round, round with screws, square")
     dials: tuple[Dial, ...] = several(
-        lambda rng, _: Dial.draw(rng, {"design": "plain", "deep": 0.4}),
+        made(Dial, lambda _: {"design": "plain", "deep": 0.4}),
         lambda p: p.count,
         "cases with their dials",
         when=lambda p: p.form < 2,
     )
     squares: tuple[Indicator, ...] = several(
-        lambda rng, _: Indicator.draw(rng), lambda p: p.count, "square cases", when=lambda p: p.form == 2
+        made(Indicator), lambda p: p.count, "square cases", when=lambda p: p.form == 2
     )
 
     def build(self, t: Table) -> Model:
@@ -110,7 +111,7 @@ class OnWall(_Mounted, name="gauge/wall"):
     count: int = whole(1, 3, "gauges side by side")
     middle: float = between(1.2, 1.7, _MIDDLE, "m")
     board: Board = nested(Board, "what they are on")
-    gauges: tuple[_WallGauge, ...] = several(lambda rng, _: _WallGauge.draw(rng), lambda p: p.count, "gauges")
+    gauges: tuple[_WallGauge, ...] = several(made(_WallGauge), lambda p: p.count, "gauges")
 
     def build(self, t: Table) -> Model:
         size, pitch = self.size, 1.7 * self.size
@@ -194,9 +195,7 @@ class Sector(_Mounted, name="gauge/sector"):
     count: int = whole(1, 4, "gauges side by side")
     board: Board = nested(Board, "what they are on")
     fan: bool = chance(0.5, "their scales are fans")
-    gauges: tuple[_Edgewise, ...] = several(
-        lambda rng, p: _Edgewise.draw(rng, {"fan": p.fan}), lambda p: p.count, "gauges"
-    )
+    gauges: tuple[_Edgewise, ...] = several(made(_Edgewise, lambda p: {"fan": p.fan}), lambda p: p.count, "gauges")
 
     def build(self, t: Table) -> Model:
         tall, pitch = self.tall, 0.75 * self.tall

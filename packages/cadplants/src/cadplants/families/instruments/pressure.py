@@ -6,6 +6,7 @@ import numpy as np
 
 from cadplants.builder.device import families_of
 from cadplants.builder.dials import STEM, Gland, Housing
+from cadplants.builder.draws import one_of
 from cadplants.builder.params import Params, among, between, chance, given, nested, several
 from cadplants.builder.table import Table, outline
 from cadplants.families.instruments.pieces import Gauge, Stand, bent, put, t_handle
@@ -269,9 +270,7 @@ class BoltedWindows(SightGlass, name="sight glass/bolted windows", sizes=sizes_b
     """A sight glass with two bolted covers, square or round, and inside a flap, a rotor or nothing (DIN 3237)."""
 
     square: bool = chance(0.5, "its covers are square")
-    bolts: tuple[int, ...] = several(
-        lambda rng, _: (4, 6, 8)[int(rng.integers(3))], lambda _: 2, "of each round cover", when=lambda p: not p.square
-    )
+    bolts: tuple[int, ...] = several(one_of(4, 6, 8), 2, "of each round cover", when=lambda p: not p.square)
     pointed: bool = chance(0.5, "the spindle of a flap with its pointer before the window")
     turn: float = between(0, 6, "where it points", "rad", when=lambda p: p.pointed)
 

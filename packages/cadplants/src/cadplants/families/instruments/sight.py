@@ -6,6 +6,7 @@ import numpy as np
 
 from cadplants.builder.device import Device, families_of
 from cadplants.builder.dials import fine_sides
+from cadplants.builder.draws import made
 from cadplants.builder.params import Params, among, between, chance, several, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.valves.valve import bolt_circle, disc_flange
@@ -106,7 +107,7 @@ class OilEye(SightGlass, name="sight glass/oil eye", place="floor", sizes=(15,))
     deep: float = between(0.25, 0.5, "depth of the housing", "m")
     tall: float = between(0.3, 0.6, "height of the housing", "m")
     count: int = whole(1, 3, "bull's eyes")
-    eyes: tuple[_Eye, ...] = several(lambda rng, _: _Eye.draw(rng), lambda p: p.count, "bull's eyes")
+    eyes: tuple[_Eye, ...] = several(made(_Eye), lambda p: p.count, "bull's eyes")
 
     def build(self, t: Table) -> Model:
         long, deep, tall = self.long, self.deep, self.tall

@@ -8,6 +8,7 @@ import numpy as np
 
 from cadgraph.model.scene import Floats
 from cadplants.builder.device import Device, families_of
+from cadplants.builder.draws import yes
 from cadplants.builder.params import among, between, chance, several
 from cadplants.builder.table import Table
 from cadplants.families.primitive.shape import (
@@ -49,12 +50,6 @@ class _Rail(Device, group=FRAME, label="railing", bundle="railing", sizes=(15,),
     """A handrail of tube."""
 
 
-def _rails(t: Table, solids: list[Solid], one: bool) -> None:
-    """Puts tubes down as one railing, or each by itself."""
-    for some in [solids] if one else [[solid] for solid in solids]:
-        t.add("railing", *some)
-
-
 class _Bent(_Rail, weight=1.5):
     """Bows of tube from floor to floor, a top rail that turns round corners, knee rails that end at posts."""
 
@@ -84,7 +79,7 @@ class _Bent(_Rail, weight=1.5):
                 solids.append(_tube([(length, 0.0, z), (length, side, z)], 0.9 * r, t.style))
         if self.knobs:
             solids += [moved(ball(1.5 * r, 12), at(0, 0, share * high)) for share in (0.5, 0.98)]
-        _rails(t, solids, self.one)
+        t.add_each("railing", solids, joined=self.one)
         for x, y in ((0.0, 0.0), (length, side)) if self.plates else ():
             t.at(x, y).add("base plate", disc(2.6 * r, -0.01, 0.0, t.style), own=False)
         return t.model()
@@ -140,8 +135,8 @@ class RoundStair(_Rail, name="railing/round a stair"):
     width: float = between(0.7, 1.1, "of the flight", "m")
     tube: float = among((0.0169, 0.021, 0.024), "radius of the tubes", "m")
     bent: tuple[bool, ...] = several(
-        lambda rng, _: bool(rng.random() < 0.5),
-        lambda _: 4,
+        yes(0.5),
+        4,
         "whether each of the four rails is bent, not cut, at the landing",
     )
     one: bool = chance(0.3, "all rails are one mesh")
@@ -156,7 +151,7 @@ class RoundStair(_Rail, name="railing/round a stair"):
             for x, z in ((0.0, 0.0), (0.5 * going, 0.5 * rise), (going, rise), (going + 1.0, rise)):
                 solids.append(_tube([(x, y, z), (x, y, z + 1.0)], r, t.style))
         solids.append(_tube([(going + 1.0, 0.0, rise + 1.0), (going + 1.0, wide, rise + 1.0)], r, t.style))
-        _rails(t, solids, self.one)
+        t.add_each("railing", solids, joined=self.one)
         t.add("platform", box((1.0, wide, 0.04), (going + 0.5, wide / 2, rise - 0.02)), of="steel", own=False)
         for k in range(1, 6):
             t.add("stair tread", box((0.24, wide, 0.03), (going * k / 6, wide / 2, rise * k / 6)), own=False)

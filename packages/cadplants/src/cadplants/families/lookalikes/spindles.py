@@ -79,8 +79,7 @@ class _Yoke(Params):
             columns = [box((w, 1.8 * w, high - low), (s * reach, 0, (low + high) / 2)) for s in BOTH]
         bridge = moved(cylinder(reach * 0.5, 0.0, 1.6 * w, t.n(reach)), at(0, 0, high - 1.6 * w))
         across = merge([bridge, box((2 * reach, 1.6 * w, w), (0, 0, high - w))])
-        for some in [[one] for one in (*columns, across)] if self.apart else [[*columns, across]]:
-            t.add("yoke", *some)
+        t.add_each("yoke", (*columns, across), joined=not self.apart)
 
 
 class _Wheel(Params):
@@ -93,8 +92,7 @@ class _Wheel(Params):
         """Puts it down on a height [m]."""
         thick, t = 0.09 * radius, t.bundled("handwheel").at(0, 0, z)
         solids = [*spoked(radius, thick, self.spokes, t.style), disc(0.2 * radius, -thick, 1.4 * thick, t.style)]
-        for some in [solids] if self.one else [[one] for one in solids]:
-            t.add("handwheel", *some, own=True)
+        t.add_each("handwheel", solids, joined=self.one, own=True)
 
 
 class _Spindle(Device, place="inline", group="Valve assembly", label="valve", bundle=_BODY):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from cadplants.builder.device import Device, families_of
+from cadplants.builder.draws import number, yes
 from cadplants.builder.params import Params, among, between, chance, nested, several, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.machines.drives import (
@@ -116,7 +117,7 @@ class Cabinet(_Cooling, name="compressor/louvred cabinet"):
     height: float = between(0.9, 1.9, "of the cabinet", "m")
     corner: float = among((0.0, 0.04, 0.1), "radius of the cabinet's corners", "m")
     louvres: tuple[bool, ...] = several(
-        lambda rng, _: bool(rng.random() < 0.5),
+        yes(0.5),
         lambda p: max(1, _doors(p.width) // 2),
         "whether the louvres are low in a door, of each door that has some",
     )
@@ -172,9 +173,7 @@ class Pots(Params):
 
     kind = "pots"
     count: int = whole(1, 3, "pots")
-    slender: tuple[float, ...] = several(
-        lambda rng, _: float(rng.uniform(2.4, 4.2)), lambda p: p.count, "height of each pot / its radius"
-    )
+    slender: tuple[float, ...] = several(number(2.4, 4.2), lambda p: p.count, "height of each pot / its radius")
 
     def build(self, t: Table, r: float) -> Model:
         """Puts them down; ``r``: radius of a pot [m]."""

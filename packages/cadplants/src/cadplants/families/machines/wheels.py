@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from cadplants.builder.device import Device, families_of
+from cadplants.builder.draws import one_of
 from cadplants.builder.params import Params, among, between, chance, given, nested, several, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.machines.drives import (
@@ -96,9 +97,7 @@ class Bench(Device, name="impeller/bench", group=PUMP, label="impeller", sizes=(
 
     level: float = between(0.6, 1.0, "height of the table", "m")
     count: int = whole(1, 3, "wheels")
-    forms: tuple[str, ...] = several(
-        lambda rng, _: _FORMS[int(rng.integers(len(_FORMS)))], lambda p: p.count, "how each wheel is made"
-    )
+    forms: tuple[str, ...] = several(one_of(*_FORMS), lambda p: p.count, "how each wheel is made")
     first: LaidWheel = nested(lambda s, p: LaidWheel.draw(s, {"form": p.forms[0]}), "first wheel")
     second: LaidWheel = nested(
         lambda s, p: LaidWheel.draw(s, {"form": p.forms[1]}), "second wheel", when=lambda p: p.count > 1

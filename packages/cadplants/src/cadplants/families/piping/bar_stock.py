@@ -49,7 +49,7 @@ class TeeBlock(Fitting, name="tee/bar stock", sizes=SMALL):
 
     half: float = between(1.25, 1.6, "half its width, less 3 mm / radius of the pipe")
     mouths: str = among(("nuts", "octagons", "shoulders"), "what its mouths have")
-    ends: tuple[Tail, ...] = several(tails("open", "cap"), lambda _: 1, _GOES_ON)
+    ends: tuple[Tail, ...] = several(tails("open", "cap"), 1, _GOES_ON)
 
     def build(self, t: Table) -> Model:
         r, n, _ = sized(t.dn, t.style, 1.3)
@@ -78,7 +78,7 @@ class CrossBlock(TeeBlock, name="cross/bar stock", sizes=SMALL):
 
     turns: ClassVar[tuple[float, ...]] = (np.pi / 2, -np.pi / 2)
 
-    ends: tuple[Tail, ...] = several(tails("open", "cap"), lambda _: 2, _GOES_ON)
+    ends: tuple[Tail, ...] = several(tails("open", "cap"), 2, _GOES_ON)
 
 
 class SplitFlange(Fitting, name="flange/split", bundle="flange", sizes=sizes_between(most=100)):

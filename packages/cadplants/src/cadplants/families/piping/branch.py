@@ -8,6 +8,7 @@ import numpy as np
 
 from cadgraph.model.scene import Floats
 from cadplants.builder.device import families_of
+from cadplants.builder.draws import made
 from cadplants.builder.params import Params, among, between, chance, given, nested, several, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.piping.shape import (
@@ -118,7 +119,7 @@ class _Junction(Fitting):
     other: int = among(lambda p: _smaller(p.dn), _OTHER, "mm")
     swollen: bool = chance(0.5, "a thick ball in its middle", when=lambda p: p.design == "flanged")
     ends: tuple[Further, ...] = several(
-        lambda rng, p: Further.draw(rng, {"design": p.design}), lambda p: p.count, "what is on its branches"
+        made(Further, lambda p: {"design": p.design}), lambda p: p.count, "what is on its branches"
     )
 
     def build(self, t: Table) -> Model:
@@ -273,9 +274,7 @@ class BullHead(Fitting, name="tee/bull head", place="end", sizes=sizes_between(m
     """A tee on a pipe's end: the line runs into its branch and leaves to both sides."""
 
     design: str = among(("plain", "banded", "socket", "flanged", "glued", "grooved"), "how its mouths are made")
-    ends: tuple[Further, ...] = several(
-        lambda rng, p: Further.draw(rng, {"design": p.design}), lambda _: 2, "what is on its far mouths"
-    )
+    ends: tuple[Further, ...] = several(made(Further, lambda p: {"design": p.design}), 2, "what is on its far mouths")
     roll: float = among((0.0, 0.5), ROLL)
 
     def build(self, t: Table) -> Model:
@@ -300,7 +299,7 @@ class Breeches(Fitting, name="tee/breeches", place="end", sizes=_LARGE):
     other: int = among(lambda p: below(p.dn, 2), "nominal size of its legs", "mm")
     turn: float = between(0.35, 0.8, "of a leg from the line", "rad")
     back: bool = chance(0.5, "the legs bend back to parallel")
-    ends: tuple[Tail, ...] = several(tails(*ENDS), lambda _: 2, "what goes on from its legs")
+    ends: tuple[Tail, ...] = several(tails(*ENDS), 2, "what goes on from its legs")
     roll: float = among((0.0, 0.5), ROLL)
 
     def build(self, t: Table) -> Model:
@@ -385,9 +384,7 @@ class Weldolet(Fitting, name="branch outlet/weldolet", sizes=_LARGE, weight=1.0)
     other: int = among(lambda p: _within(p.dn, 0.6, 4), "nominal size of its outlets", "mm")
     count: int = whole(1, 3, "outlets")
     apart: float = between(0.04, 0.3, "from outlet to outlet, less two diameters of their pipe", "m")
-    outlets: tuple[Olet, ...] = several(
-        lambda rng, p: Olet.draw(rng, {"design": p.design}), lambda p: p.count, "its outlets"
-    )
+    outlets: tuple[Olet, ...] = several(made(Olet, lambda p: {"design": p.design}), lambda p: p.count, "its outlets")
 
     def build(self, t: Table) -> Model:
         pitch = 4 * PIPES[self.other].radius + self.apart

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from cadplants.builder.device import families_of
+from cadplants.builder.draws import made
 from cadplants.builder.params import Params, among, between, chance, given, nested, several, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.piping.shape import (
@@ -310,7 +311,7 @@ class Orifice(_Pair, name="flange/orifice", sizes=SIZES[4:]):
     """Orifice flanges (ASME B16.36): two flanges with tappings in their rims."""
 
     turn: float = among((0.0, 0.5, 1.0), "where its tappings are, about the pipe / half a turn")
-    tappings: tuple[Tapping, ...] = several(lambda rng, _: Tapping.draw(rng), lambda _: 2, "tappings")
+    tappings: tuple[Tapping, ...] = several(made(Tapping), 2, "tappings")
 
     def tapped(self, t: Table, places: Sequence[float]) -> None:
         # The two tappings stand aside of each other, or their nipples would touch.
@@ -516,7 +517,7 @@ class Tapped(_Lid, name="blind flange/tapped", bundle="", sizes=SIZES[2:]):
 
     count: int = whole(1, 3, "tappings", when=lambda p: p.dn >= 100, otherwise=1)
     tappings: tuple[LidTapping, ...] = several(
-        lambda rng, p: LidTapping.draw(rng, {"dn": p.dn, "many": p.count > 1}), lambda p: p.count, "tappings"
+        made(LidTapping, lambda p: {"dn": p.dn, "many": p.count > 1}), lambda p: p.count, "tappings"
     )
 
     def build(self, t: Table) -> Model:

@@ -294,8 +294,7 @@ class Dismantling(_Joint, name="expansion joint/dismantling", sizes=SIZES[5:], g
         nuts = [prism(1.6 * bolt, 6, x, x + 0.8 * bolt) for x in places]
         one = merge([barrel(bolt / 2, plate, far, 8), *nuts])
         studs = [moved(one, spun("x", float(turn)) @ at(0, size.circle / 2)) for turn in turns[:: self.step]]
-        for solids in [studs] if t.style.fasteners in ("set", "flange") else [[stud] for stud in studs]:
-            t.add("stud", *solids)
+        t.add_each("stud", studs, joined=t.style.fasteners in ("set", "flange"))
         return t.model(round(length, 9))
 
 

@@ -6,6 +6,7 @@ import numpy as np
 
 from cadgraph.model.scene import Floats
 from cadplants.builder.device import families_of
+from cadplants.builder.draws import number
 from cadplants.builder.params import among, between, given, several, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.piping.shape import (
@@ -137,9 +138,7 @@ class Loading(Fitting, name="hose/loading", place="end", sizes=sizes_between(mos
     end: str = among(("hexagon", "cam lever"), _END)
     bow: float = between(5, 9, "radius of its bends / of the pipe")
     drop: float = between(0.1, 0.5, "how far it hangs down between them", "m")
-    rise: tuple[float, ...] = several(
-        lambda rng, _: float(rng.uniform(0.1, 0.3)), lambda _: 2, "steps in which it comes up", "m"
-    )
+    rise: tuple[float, ...] = several(number(0.1, 0.3), 2, "steps in which it comes up", "m")
     skin: str = among(_SKINS, _SKIN)
 
     def build(self, t: Table) -> Model:

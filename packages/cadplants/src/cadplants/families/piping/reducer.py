@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from cadplants.builder.device import families_of
+from cadplants.builder.draws import number
 from cadplants.builder.params import Params, among, between, chance, nested, several, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.piping.shape import (
@@ -337,9 +338,7 @@ class BellAndSpigot(Fitting, name="pipe/bell and spigot", sizes=SIZES[5:]):
     """Cast iron or concrete pipes with a bell at one end (EN 545), one in the other."""
 
     count: int = whole(1, 3, "pipes")
-    longs: tuple[float, ...] = several(
-        lambda rng, _: float(rng.uniform(0.25, 0.8)), lambda p: p.count, "length of each without its bell", "m"
-    )
+    longs: tuple[float, ...] = several(number(0.25, 0.8), lambda p: p.count, "length of each without its bell", "m")
 
     def build(self, t: Table) -> Model:
         r, n, bore = sized(t.dn, t.style, 1.3)

@@ -8,6 +8,7 @@ import numpy as np
 
 from cadgraph.model.scene import Floats
 from cadplants.builder.device import Device, families_of
+from cadplants.builder.draws import yes
 from cadplants.builder.params import Params, among, between, chance, nested, several, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.primitive.shape import (
@@ -77,9 +78,7 @@ class CrossedTee(_Fitting, name="tee/crossed cylinders", label="tee", bundle="te
 
     steps: int = whole(0, 2, "how many nominal sizes smaller the branch is")
     crossed: bool = chance(0.5, "the branch begins at the axis of the run")
-    flared: tuple[bool, ...] = several(
-        lambda rng, _: bool(rng.random() < 0.3), lambda _: 1, "whether the branch is a cone"
-    )
+    flared: tuple[bool, ...] = several(yes(0.3), 1, "whether the branch is a cone")
 
     def build(self, t: Table) -> Model:
         branch, reach = smaller(self.dn, self.steps), TEE_CENTER_TO_END[self.dn]
@@ -96,9 +95,7 @@ class CrossedTee(_Fitting, name="tee/crossed cylinders", label="tee", bundle="te
 class CrossedCross(CrossedTee, name="cross/crossed cylinders", label="cross", bundle="cross", weight=1.0):
     """Crossed cylinders, each with closed ends, or two snouts on a run: a cross in one mesh."""
 
-    flared: tuple[bool, ...] = several(
-        lambda rng, _: bool(rng.random() < 0.3), lambda _: 2, "whether each branch is a cone"
-    )
+    flared: tuple[bool, ...] = several(yes(0.3), 2, "whether each branch is a cone")
 
 
 class BallTee(_Fitting, name="tee/ball with ends", label="tee", bundle="tee", sizes=_SMALL):

@@ -8,6 +8,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from cadplants.builder.device import Device, families_of
+from cadplants.builder.draws import made, one_of
 from cadplants.builder.params import Params, Source, among, between, chance, given, nested, several, whole
 from cadplants.builder.table import Table
 from cadplants.families.primitive.shape import (
@@ -191,9 +192,7 @@ class _Stand(Params):
     form: str = among(lambda p: ("legs" if p.thin else "skirt", "legs", "block"), "what it stands on")
     flare: float = among((1.0, 1.15), "foot of the skirt / vessel", when=lambda p: p.form == "skirt", otherwise=0.0)
     count: int = whole(3, 4, "legs", when=lambda p: p.form == "legs")
-    legs: tuple[_Leg, ...] = several(
-        lambda rng, _: _Leg.draw(rng), lambda p: p.count, "its legs", when=lambda p: p.form == "legs"
-    )
+    legs: tuple[_Leg, ...] = several(made(_Leg), lambda p: p.count, "its legs", when=lambda p: p.form == "legs")
 
     def build(self, t: Table, radius: float, low: float) -> None:
         """Puts it down under a vessel whose shell begins at a height [m]."""
@@ -246,7 +245,7 @@ class _Upright(_Vessel):
     stand: _Stand
     count: int = whole(1, 3, "nozzles")
     nozzles: tuple[_SideNozzle, ...] = several(
-        lambda rng, p: _SideNozzle.draw(rng, {"wide": p.radius > 0.3}), lambda p: p.count, "its nozzles"
+        made(_SideNozzle, lambda p: {"wide": p.radius > 0.3}), lambda p: p.count, "its nozzles"
     )
 
     def put(self, t: Table) -> tuple[float, float, float, list[Port]]:
@@ -357,7 +356,7 @@ class _Lying(_Vessel):
 
 
 def _nozzles() -> tuple[_TopNozzle, ...]:
-    return several(lambda rng, _: _TopNozzle.draw(rng), lambda p: p.count, "its nozzles")
+    return several(made(_TopNozzle), lambda p: p.count, "its nozzles")
 
 
 class LyingTank(_Lying, name="tank/lying of primitives", group="Tank", label="tank", weight=3):
@@ -365,7 +364,7 @@ class LyingTank(_Lying, name="tank/lying of primitives", group="Tank", label="ta
 
     radius: float = between(0.3, 1.2, "radius", "m")
     belted: bool = chance(0.3, "a belt at either end of the shell")
-    plates: tuple[int, ...] = several(lambda rng, _: (1, 2)[int(rng.integers(2))], lambda _: 2, "plates of each saddle")
+    plates: tuple[int, ...] = several(one_of(1, 2), 2, "plates of each saddle")
     count: int = whole(2, 4, "nozzles")
     nozzles: tuple[_TopNozzle, ...] = _nozzles()
     manned: bool = chance(0.5, "a manway in one end")

@@ -9,6 +9,7 @@ import numpy as np
 
 from cadgraph.model.scene import Floats
 from cadplants.builder.device import Device, families_of
+from cadplants.builder.draws import made, number, one_of, yes
 from cadplants.builder.params import Params, among, between, chance, each, given, nested, several, whole
 from cadplants.builder.table import Table
 from cadplants.families.primitive.shape import (
@@ -30,10 +31,9 @@ from cadplants.transforms import at, looking, spun
 __all__ = ["PRIMITIVE_PIECES"]
 
 
-def _each(t: Table, name: str, *solids: Solid, of: str = "") -> None:
-    """Puts solids down, each as a part of its own."""
-    for solid in solids:
-        t.bundled(name).add(name, solid, of=of, own=True)
+def _each(t: Table, name: str, *solids: Solid) -> None:
+    """Puts solids down, each as a part of its own in the bundle of its name."""
+    t.bundled(name).add_each(name, solids, own=True)
 
 
 def _sector(inner: float, outer: float, first: float, last: float, steps: int) -> Floats:
@@ -73,7 +73,7 @@ class _Volute(Params):
     form: str = among(("two bends", "four quarters", "drum"), "what it is put together of")
     count: int = whole(1, 2, "discs on it")
     discs: tuple[float, ...] = several(
-        lambda rng, _: float(rng.uniform(0.1, 0.4)), lambda p: p.count, "half the thickness of each / of the casing"
+        number(0.1, 0.4), lambda p: p.count, "half the thickness of each / of the casing"
     )
 
     def solids(self, r: float, thick: float, style: ModelingStyle) -> list[Solid]:
@@ -107,7 +107,7 @@ class _Frame(Params):
     one: bool = chance(0.7, "one plate under all, not one for each")
     single: bool = chance(0.3, "one block under the motor, not two")
     blocks: tuple[float, ...] = several(
-        lambda rng, _: (0.02, 0.03, 0.1)[int(rng.integers(3))],
+        one_of(0.02, 0.03, 0.1),
         lambda p: 1 if p.single else 2,
         "length of each of these",
         "m",
@@ -158,7 +158,7 @@ class PumpInPieces(Device, name="pump/in pieces", group="Pump unit", label="pump
     shaft: float = between(0.12, 0.3, "radius of the shaft / of the motor")
     through: float = among((0.1, 1.05), "how far the shaft reaches into the motor / its length")
     count: int = whole(0, 3, "discs on the shaft")
-    couplings: tuple[_Coupling, ...] = several(lambda rng, _: _Coupling.draw(rng), lambda p: p.count, "these")
+    couplings: tuple[_Coupling, ...] = several(made(_Coupling), lambda p: p.count, "these")
     covered: bool = chance(0.6, "a cover over the fan")
     gap: float = among((0.0, 0.0, 0.01), "before the cover", "m", when=lambda p: p.covered, otherwise=0.0)
     cover: float = among((0.9, 1.0, 1.0), "radius of the cover / of the motor", when=lambda p: p.covered, otherwise=0.0)
@@ -248,9 +248,9 @@ class TankInPieces(Device, name="tank/in pieces", group="Tank", label="tank", we
     half: float = between(1.2, 3.5, "half the length of the shell / radius")
     depth: float = among((0.25, 0.5, 0.9), "depth of a dish / radius")
     lift: float = between(0.15, 0.6, "of the shell over the floor", "m")
-    saddles: tuple[_Saddle, ...] = several(lambda rng, _: _Saddle.draw(rng), lambda _: 2, "its saddles")
+    saddles: tuple[_Saddle, ...] = several(made(_Saddle), 2, "its saddles")
     count: int = whole(2, 4, "nozzles")
-    nozzles: tuple[_Nozzle, ...] = several(lambda rng, _: _Nozzle.draw(rng), lambda p: p.count, "its nozzles")
+    nozzles: tuple[_Nozzle, ...] = several(made(_Nozzle), lambda p: p.count, "its nozzles")
     manned: bool = chance(0.6, "a manway")
     at_end: bool = chance(0.6, "it is in one end, not on top", when=lambda p: p.manned)
 
@@ -446,13 +446,9 @@ class _RailSide(Params):
 
     length: float = given(0.0, "of the flight", "m")
     knees: tuple[float, ...] = among(((), (0.5,), (0.5,), (0.35, 0.7)), "heights of its knee rails / of the rail")
-    thin: tuple[float, ...] = several(
-        lambda rng, _: (0.7, 0.9, 1.0)[int(rng.integers(3))], lambda p: len(p.knees), "radius of each / of the rail"
-    )
-    ends: tuple[_RailEnd, ...] = several(lambda rng, _: _RailEnd.draw(rng), lambda _: 2, "ends of the rail")
-    posts: tuple[bool, ...] = several(
-        lambda rng, _: bool(rng.random() < 0.85), lambda p: int(p.length / 1.3) + 2, "whether each post is there"
-    )
+    thin: tuple[float, ...] = several(one_of(0.7, 0.9, 1.0), lambda p: len(p.knees), "radius of each / of the rail")
+    ends: tuple[_RailEnd, ...] = several(made(_RailEnd), 2, "ends of the rail")
+    posts: tuple[bool, ...] = several(yes(0.85), lambda p: int(p.length / 1.3) + 2, "whether each post is there")
 
 
 class TubesAndBends(
@@ -476,7 +472,7 @@ class TubesAndBends(
     gap: float = among((0.0, 0.0, 0.001), "before the bends", "m")
     count: int = whole(1, 2, "sides with a rail")
     sides: tuple[_RailSide, ...] = several(
-        lambda rng, p: _RailSide.draw(rng, {"length": p.length}), lambda p: p.count, "its sides"
+        made(_RailSide, lambda p: {"length": p.length}), lambda p: p.count, "its sides"
     )
     treads: tuple[float, ...] = given((), "thickness of each tread", "m")
     floored: bool = chance(0.7, "a floor")
@@ -521,9 +517,7 @@ class FlightOfTubes(TubesAndBends, name="railing/flight of tubes"):
 
     slope = 0.7
 
-    treads: tuple[float, ...] = several(
-        lambda rng, _: (0.03, 0.05)[int(rng.integers(2))], lambda _: 6, "thickness of each tread", "m"
-    )
+    treads: tuple[float, ...] = several(one_of(0.03, 0.05), 6, "thickness of each tread", "m")
     floored: bool = chance(0.7, "a floor", when=lambda _: False)
 
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from cadgraph.model.scene import Floats
 from cadplants.builder.device import Device, families_of
+from cadplants.builder.draws import made, number, one_of, yes
 from cadplants.builder.params import Params, among, between, chance, given, nested, several, spread, whole
 from cadplants.builder.table import Table
 from cadplants.families.primitive.shape import (
@@ -91,7 +92,7 @@ class _Side(Params):
     """One side of a frame."""
 
     bays: int = given(1, "bays")
-    feet: tuple[_Foot, ...] = several(lambda rng, _: _Foot.draw(rng), lambda p: p.bays + 1, "feet of the columns")
+    feet: tuple[_Foot, ...] = several(made(_Foot), lambda p: p.bays + 1, "feet of the columns")
     flush: bool = chance(0.5, "its beams lie between the columns, not on them")
 
 
@@ -105,7 +106,7 @@ class SharpFrame(_Steel, name="frame/sharp sections", label="beam", weight=2.5):
     two: bool = among((False, True), "it has two sides")
     high: float = between(1.2, 4, "height of the columns", "m")
     sides: tuple[_Side, ...] = several(
-        lambda rng, p: _Side.draw(rng, {"bays": p.bays}), lambda p: 2 if p.two else 1, "its sides"
+        made(_Side, lambda p: {"bays": p.bays}), lambda p: 2 if p.two else 1, "its sides"
     )
     braced: bool = chance(0.5, "a brace in the first bay")
     brace: str = among(("L", "flat", "tube"), "section of the brace", when=lambda p: p.braced, otherwise="")
@@ -132,9 +133,7 @@ class BeamOnPosts(_Steel, name="beam/on posts", label="beam"):
     section: _Section = _section()
     length: float = between(1.0, 6.0, "of the beam", "m")
     high: float = between(0.3, 3.0, "height of the beam", "m")
-    under: tuple[str, ...] = several(
-        lambda rng, _: ("column", "post")[int(rng.integers(2))], lambda _: 2, "what each post is taken for"
-    )
+    under: tuple[str, ...] = several(one_of("column", "post"), 2, "what each post is taken for")
 
     def build(self, t: Table) -> Model:
         size, length, high = self.section.size, self.length, self.high
@@ -248,15 +247,13 @@ class Boxes(_Steel, name="stairs/boxes", label="stair tread", weight=1.5, grain=
     going: float = between(0.2, 0.3, "of a step", "m")
     blocks: bool = chance(0.3, "blocks that stand on the floor")
     thick: tuple[float, ...] = several(
-        lambda rng, _: (0.03, 0.03, 0.05)[int(rng.integers(3))],
+        one_of(0.03, 0.03, 0.05),
         lambda p: p.count,
         "thickness of each tread",
         "m",
         when=lambda p: not p.blocks,
     )
-    sides: tuple[_Stringer, ...] = several(
-        lambda rng, _: _Stringer.draw(rng), lambda _: 2, "its sides", when=lambda p: not p.blocks
-    )
+    sides: tuple[_Stringer, ...] = several(made(_Stringer), 2, "its sides", when=lambda p: not p.blocks)
 
     def build(self, t: Table) -> Model:
         rise, going, wide, count = self.rise, self.going, self.wide, self.count
@@ -297,8 +294,7 @@ class PlainBars(_Steel, name="ladder/plain bars", label="ladder", bundle="ladder
         solids += [rod((0, -half, z), (0, half, z), r, n) for z in np.arange(0.25, high - 0.1, 0.28)]
         if self.hooped:
             solids += [moved(torus(0.36, 0.015, 16, 4), at(0.36, 0, float(z))) for z in np.arange(2.2, high, 0.8)]
-        for some in [solids] if self.one else [[each] for each in solids]:
-            t.add("ladder", *some, of="steel")
+        t.add_each("ladder", solids, joined=self.one, of="steel")
         return t.model()
 
 
@@ -390,12 +386,10 @@ class FramedPanel(_Steel, name="fence/framed panel", label="fence", grain="fitti
     high: float = between(0.9, 2.2, "height of a panel", "m")
     radius: float = between(0.015, 0.035, "half the width of a post", "m")
     count: int = whole(1, 3, "panels")
-    round_: tuple[bool, ...] = several(
-        lambda rng, _: bool(rng.random() < 0.5), lambda p: p.count + 1, "whether each post is round"
-    )
+    round_: tuple[bool, ...] = several(yes(0.5), lambda p: p.count + 1, "whether each post is round")
     gap: float = given(0.0, "between a leaf and its posts", "m")
     bays: tuple[_Bay, ...] = several(
-        lambda rng, _: _Bay.draw(rng, {"leaf": False}), lambda p: p.count, "what is between the posts"
+        made(_Bay, lambda _: {"leaf": False}), lambda p: p.count, "what is between the posts"
     )
 
     def build(self, t: Table) -> Model:
@@ -411,9 +405,7 @@ class FramedPanel(_Steel, name="fence/framed panel", label="fence", grain="fitti
                 solids += [box(hinge, (-gap / 2, 0, share * high)) for share in (0.2, 0.75)]
                 solids.append(box((0.12, 2.5 * r, 0.03), (across, 0, 0.55 * high)))
                 pose = pose @ spun("z", bay.ajar if bay.open_ else 0.0)
-            there = t.moved(pose).bundled(self.label)
-            for some in [solids] if bay.one else [[each] for each in solids]:
-                there.add(self.label, *some)
+            t.moved(pose).bundled(self.label).add_each(self.label, solids, joined=bay.one)
         return t.model()
 
 
@@ -425,7 +417,7 @@ class FramedLeaf(FramedPanel, name="gate/framed leaf", label="gate"):
     count: int = among((1,), "leaves")
     gap: float = between(0.02, 0.06, "between the leaf and its posts", "m")
     bays: tuple[_Bay, ...] = several(
-        lambda rng, _: _Bay.draw(rng, {"leaf": True}), lambda p: p.count, "what is between the posts"
+        made(_Bay, lambda _: {"leaf": True}), lambda p: p.count, "what is between the posts"
     )
 
 
@@ -468,9 +460,7 @@ class ForkOfPlates(_Steel, name="caster/fork of plates", label="caster", weight=
     stemmed: bool = chance(0.4, "a stem, not a top plate")
     split: bool = chance(0.6, "wheel, fork, axle and head are meshes of their own")
     framed: bool = chance(0.6, "four under a frame")
-    turns: tuple[float, ...] = several(
-        lambda rng, _: float(rng.uniform(0, 6)), lambda p: 4 if p.framed else 1, "which way each looks", "rad"
-    )
+    turns: tuple[float, ...] = several(number(0, 6), lambda p: 4 if p.framed else 1, "which way each looks", "rad")
 
     def build(self, t: Table) -> Model:
         r = self.radius

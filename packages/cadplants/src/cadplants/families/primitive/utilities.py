@@ -6,6 +6,7 @@ import numpy as np
 
 from cadgraph.model.scene import Floats
 from cadplants.builder.device import Device, families_of
+from cadplants.builder.draws import made, yes
 from cadplants.builder.params import Params, Source, among, between, chance, given, nested, several, whole
 from cadplants.builder.table import Table
 from cadplants.families.primitive.shape import (
@@ -78,8 +79,7 @@ class _Way(_Utility, label="cable tray", bundle="cable tray", grain="structure")
         wide, high, level, pose = self.wide, self.high, self.level, at(0, 0, self.level)
         for one in stretches:
             here, solids = t.moved(pose), one.solids(wide, high)
-            for some in [solids] if one.one else [[each] for each in solids]:
-                here.add("cable tray", *some)
+            here.add_each("cable tray", solids, joined=one.one)
             if collared:
                 here.add("cable tray", box((0.02, 1.25 * wide, high + 0.25 * wide), (0.01, 0, high / 2)))
             foot = (pose @ at(0.5 * one.length))[:3, 3]
@@ -95,7 +95,7 @@ class _Way(_Utility, label="cable tray", bundle="cable tray", grain="structure")
 def _first(form: str) -> tuple[_Stretch, ...]:
     longest = 3.0 if form == "rungs" else 6.0
     told = {"form": form, "followed": True, "longest": longest}
-    return several(lambda rng, _: _Stretch.draw(rng, told), lambda p: p.count - 1, "stretches before the last")
+    return several(made(_Stretch, lambda _: told), lambda p: p.count - 1, "stretches before the last")
 
 
 def _last(form: str) -> _Stretch:
@@ -150,9 +150,7 @@ class Conduit(_Utility, name="conduit/bent bars", label="conduit", bundle="condu
     count: int = whole(1, 4, "bars")
     length: float = between(0.8, 5.0, "along", "m")
     rise: float = between(0.4, 2.5, "up", "m")
-    sleeved: tuple[bool, ...] = several(
-        lambda rng, _: bool(rng.random() < 0.5), lambda p: p.count, "whether each has two sleeves"
-    )
+    sleeved: tuple[bool, ...] = several(yes(0.5), lambda p: p.count, "whether each has two sleeves")
     boxed: bool = chance(0.6, "a box under them")
 
     def build(self, t: Table) -> Model:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
 
 from cadplants.builder.device import Device, families_of
+from cadplants.builder.draws import of_form
 from cadplants.builder.params import Params, Source, among, between, chance, given, nested, whole
 from cadplants.builder.table import Table
 from cadplants.families.primitive.shape import (
@@ -51,24 +51,20 @@ class _Plates(Params):
 _TURNERS = ("nothing", "nothing", "disc", "crossed bars", "spokes", "bar", "diaphragm", "box", "barrel")
 
 
-def _is(*forms: str) -> Callable[[Any], bool]:
-    return lambda p: p.form in forms
-
-
 class _Turner(Params):
     """What turns a spindle: nothing, a wheel, a bar, a drive."""
 
     wheel: float = between(0.9, 1.9, "(radius of a wheel - the next) / of the pipe")
     rim: float = between(0.02, 0.06, "what that is wider by", "m")
     form: str = among(_TURNERS, "what it is")
-    spokes: int = whole(3, 5, "spokes of a wheel", when=_is("spokes"))
-    one: bool = chance(0.5, "rim and spokes are one mesh", when=_is("spokes"))
-    reach: float = between(0.08, 0.2, "length of a bar - 2.2 radii of the pipe", "m", when=_is("bar"))
-    turn: float = among((0.0, np.pi / 2, np.pi), "which way it points", "rad", when=_is("bar"), otherwise=0.0)
-    wide: float = between(0.9, 1.7, "(radius of a drive - 30 mm) / of the pipe", when=_is(*_TURNERS[6:]))
-    high: float = between(0.8, 2.4, "(height of a drive - 50 mm) / radius of the pipe", when=_is(*_TURNERS[6:]))
-    deep: float = between(1.0, 2.0, "depth of a box / half its width", when=_is("box"))
-    crossed: bool = chance(0.5, "a level cylinder on the barrel", when=_is("barrel"))
+    spokes: int = whole(3, 5, "spokes of a wheel", when=of_form("spokes"))
+    one: bool = chance(0.5, "rim and spokes are one mesh", when=of_form("spokes"))
+    reach: float = between(0.08, 0.2, "length of a bar - 2.2 radii of the pipe", "m", when=of_form("bar"))
+    turn: float = among((0.0, np.pi / 2, np.pi), "which way it points", "rad", when=of_form("bar"), otherwise=0.0)
+    wide: float = between(0.9, 1.7, "(radius of a drive - 30 mm) / of the pipe", when=of_form(*_TURNERS[6:]))
+    high: float = between(0.8, 2.4, "(height of a drive - 50 mm) / radius of the pipe", when=of_form(*_TURNERS[6:]))
+    deep: float = between(1.0, 2.0, "depth of a box / half its width", when=of_form("box"))
+    crossed: bool = chance(0.5, "a level cylinder on the barrel", when=of_form("barrel"))
 
     def build(self, t: Table, z: float) -> None:
         """Puts it on a spindle about z that ends at a height [m]."""
@@ -361,7 +357,7 @@ class NoSpindle(_Valve, name="valve/no spindle", weight=1.5):
 
     wide: float = _flanged()
     form: str = among(("hourglass", "cone", "ball"), "its body")
-    barred: bool = chance(0.5, "a bar across the waist", when=_is("hourglass"))
+    barred: bool = chance(0.5, "a bar across the waist", when=of_form("hourglass"))
     plates: _Plates = _plates()
     lidded: bool = chance(0.4, "a flat lid")
 

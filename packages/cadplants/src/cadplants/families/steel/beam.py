@@ -7,7 +7,7 @@ import numpy as np
 from cadgraph.model.scene import Floats
 from cadplants.builder.device import families_of
 from cadplants.builder.draws import number, yes
-from cadplants.builder.params import among, between, chance, nested, whole
+from cadplants.builder.params import among, between, chance, nested, several, whole
 from cadplants.builder.table import Table
 from cadplants.families.steel.shape import (
     ROLLED,
@@ -17,14 +17,12 @@ from cadplants.families.steel.shape import (
     Structure,
     bar,
     bolts,
-    each,
     few_sides,
     mirrored,
     section,
     slab_xz,
     slab_yz,
     span_of,
-    spread,
 )
 from cadplants.family import Model
 from cadplants.polygon import circle, rounded_rectangle
@@ -99,7 +97,7 @@ class Castellated(Structure, name="beam/castellated"):
         holes = tuple(circle(0.31 * h, n, (float(x), h / 2)) for x in (np.arange(count) + 0.5) * length / count)
         web = slab_xz([(0, f), (length, f), (length, h - f), (0, h - f)], max(0.006, 0.025 * h), 0.0, holes)
         flanges = [box((length, b, f), (length / 2, 0, z)) for z in (f / 2, h - f / 2)]
-        spread(up.bundled("") if self.joined else up, "beam", (web, *flanges), joined=self.joined)
+        (up.bundled("") if self.joined else up).add_each("beam", (web, *flanges), joined=self.joined)
         self.props.build(t, length, b)
         return t.model()
 
@@ -134,7 +132,7 @@ class Girder(Structure, name="beam/plate girder"):
         solids.append(box((length, b, f), (length / 2, 0, f / 2)))
         for (xa, za), (xb, zb) in zip(side[:-1], side[1:], strict=True):
             solids.append(slab_xz([(xb, zb), (xa, za), (xa, za + f), (xb, zb + f)], b))
-        spread(up.bundled("") if self.joined else up, "beam", solids, joined=self.joined)
+        (up.bundled("") if self.joined else up).add_each("beam", solids, joined=self.joined)
         xs = np.linspace(0.01, length - 0.01, self.ribs)
         for x, z in zip(xs, np.interp(xs, *np.array(side[::-1], float).T), strict=True):
             deep = b / 2 - thick / 2 - 0.01
@@ -165,7 +163,7 @@ class CraneRunway(Structure, name="beam/crane runway", weight=0.8, grain="fittin
         foot = 0.5 * (right - left) + 0.02
         for x in np.arange(0.3, length - 0.2, 0.6):
             clips = [box((0.06, 0.05, 0.015), (x, s * foot, h + 0.0075)) for s in BOTH]
-            spread(up, "clamp", clips, of="steel")
+            up.add_each("clamp", clips, of="steel")
         if self.stop:
             tall = r1 - r0 + 0.15
             up.add("plate", box((0.02, 0.12, tall), (length - 0.01, 0, h + tall / 2)))
@@ -184,7 +182,7 @@ class Purlins(Structure, name="beam/purlins", weight=0.8, grain="fitting"):
     purlin: str = among(("Z", "C", "Z"), "section of the purlins")
     props: Props = nested(Props, "what a rafter lies on")
     count: int = whole(2, 4, "purlins")
-    cleats: tuple[bool, ...] = each(yes(0.7), "whether a purlin has cleats")
+    cleats: tuple[bool, ...] = several(yes(0.7), lambda p: p.count, "whether a purlin has cleats")
 
     def build(self, t: Table) -> Model:
         rafter, purlin = (
@@ -244,8 +242,8 @@ class Lattice(Structure, name="beam/lattice", weight=1.2):
         if self.joined:
             up.bundled("").add("beam", *chords, *webs)
         else:
-            spread(up, "beam", chords)
-            spread(up, "brace", webs)
+            up.add_each("beam", chords)
+            up.add_each("brace", webs)
         spots = {(round(float(p[0]), 4), float(p[2])) for line in lines for p in line} if self.gussets else ()
         for x, z in sorted(spots):
             g, s = 0.09, 1 if z == 0 else -1
@@ -262,7 +260,7 @@ class Pitched(Structure, name="beam/pitched truss", weight=0.7):
     timber: bool = chance(0.5, "of timber, not steel")
     pitch: float = between(0.15, 0.35, "height / length")
     steel: str = among(("L", "SHS", "T"), "section of steel chords", when=lambda p: not p.timber)
-    struts: tuple[bool, ...] = each(yes(0.5), "whether a half has a second strut", count=2)
+    struts: tuple[bool, ...] = several(yes(0.5), 2, "whether a half has a second strut")
     plated: bool = chance(0.7, "with plates at feet and ridge")
     props: Props = nested(Props, _ON)
 
@@ -279,7 +277,7 @@ class Pitched(Structure, name="beam/pitched truss", weight=0.7):
         x0, x1, _y0, y1 = span_of(chord)
         up = t.at(0, 0, self.props.top).at(0, 0, y1).bundled("beam")
         for name, lines, one in (("beam", chords, chord), ("brace", struts, web)):
-            spread(up, name, [bar(a, b, one, (0, 0.01, 1)) for a, b in lines], of="safety" if timber else "steel")
+            up.add_each(name, [bar(a, b, one, (0, 0.01, 1)) for a, b in lines], of="safety" if timber else "steel")
         for p in (*feet, ridge) if self.plated else ():
             for y in (x0 - 0.002, x1 + 0.002):
                 up.add("plate", box((0.22, 0.004, 0.14), (float(p[0]), y, float(p[2]) + 0.02)), of="clamp")
@@ -320,8 +318,8 @@ class Stack(Structure, name="beam/stack", weight=0.8, grain="fitting"):
     columns: int = whole(2, 5, "profiles side by side")
     layers: int = whole(1, 3, "one above the other")
     batten: float = among((0.05, 0.08), "side of a batten", "m")
-    shifts: tuple[float, ...] = each(
-        number(-0.05, 0.05), "how far a profile lies out of line", "m", count=lambda p: p.layers * p.columns
+    shifts: tuple[float, ...] = several(
+        number(-0.05, 0.05), lambda p: p.layers * p.columns, "how far a profile lies out of line", "m"
     )
 
     def build(self, t: Table) -> Model:

@@ -9,7 +9,7 @@ import numpy as np
 from cadgraph.model.scene import Floats
 from cadplants.builder.device import families_of
 from cadplants.builder.draws import made, number, of_form, one_of, yes
-from cadplants.builder.params import Params, among, between, chance, given, nested, whole
+from cadplants.builder.params import Params, among, between, chance, given, nested, several, whole
 from cadplants.builder.table import Table
 from cadplants.families.steel.caster import Casters
 from cadplants.families.steel.shape import (
@@ -19,7 +19,6 @@ from cadplants.families.steel.shape import (
     bar,
     bases,
     bolts,
-    each,
     few_sides,
     flat,
     lug,
@@ -29,7 +28,6 @@ from cadplants.families.steel.shape import (
     slab_xy,
     slab_xz,
     span_of,
-    spread,
 )
 from cadplants.family import Model
 from cadplants.mesh_ops import Solid, moved
@@ -81,7 +79,7 @@ class _Member(Params):
         if self.form == "rod":
             self._rod(t, a + np.array([0, spread_by * way, 0]), b + np.array([0, spread_by * way, 0]))
         elif self.form == "angles":
-            spread(t, "brace", self._angles(t, a, b), joined=self.joined)
+            t.add_each("brace", self._angles(t, a, b), joined=self.joined)
         elif self.form == "flat":
             t.at(0, 0.009 * way).add("brace", flat(a, b, 0.06, 0.008))
         else:
@@ -111,11 +109,11 @@ class _Member(Params):
 def _gussets(count: int) -> tuple[str, ...]:
     """The forms of this many gusset plates."""
     forms = "triangle", "chamfered", "rectangle"
-    return each(one_of(*forms), "form of a gusset plate", count=count)
+    return several(one_of(*forms), count, "form of a gusset plate")
 
 
 def _members(count: int) -> tuple[_Member, ...]:
-    return each(made(_Member, lambda p: {"form": p.brace}), "one of the braces", count=count)
+    return several(made(_Member, lambda p: {"form": p.brace}), count, "one of the braces")
 
 
 class _Braced(Structure, grain="fitting"):
@@ -248,9 +246,9 @@ class Rack(Structure, name="frame/pipe rack", label="beam", weight=1.2, grain="f
     arm: float = between(0.4, 0.8, "length of a cantilever, if it has such", "m")
     armed: bool = among((False, True), "with cantilevers")
     bases: tuple[Base, ...] = bases(4)
-    sides: tuple[_Side, ...] = each(made(_Side), "between the frames", count=2)
-    pipes: tuple[_Pipe, ...] = each(
-        made(_Pipe), "place for a pipe, tier by tier", count=lambda p: p.tiers * len(np.arange(0.3, p.width - 0.2, 0.4))
+    sides: tuple[_Side, ...] = several(made(_Side), 2, "between the frames")
+    pipes: tuple[_Pipe, ...] = several(
+        made(_Pipe), lambda p: p.tiers * len(np.arange(0.3, p.width - 0.2, 0.4)), "place for a pipe, tier by tier"
     )
 
     def build(self, t: Table) -> Model:
@@ -263,7 +261,7 @@ class Rack(Structure, name="frame/pipe rack", label="beam", weight=1.2, grain="f
                 low = base.build(t.at(x, y), 0.3, 0.3)
                 t.add("column", bar((x, y, low), (x, y, h), column, (0, 1, 0)))
             ends = [(half, w - half), (w + half, w + half + self.arm)][: 1 + self.armed]
-            spread(t, "beam", [bar((a, y, z - y1), (b, y, z - y1), beam) for z in levels for a, b in ends])
+            t.add_each("beam", [bar((a, y, z - y1), (b, y, z - y1), beam) for z in levels for a, b in ends])
         back, z = span_of(column)[3], 0.7 * h
         for x, side in zip((0.0, w), self.sides, strict=True):
             t.add("beam", bar((x, back, z), (x, d - back, z), strut))
@@ -277,7 +275,7 @@ class Rack(Structure, name="frame/pipe rack", label="beam", weight=1.2, grain="f
         return t.model()
 
 
-def _portal(p: Any) -> bool:
+def _is_portal(p: Any) -> bool:
     return not p.tripod
 
 
@@ -294,18 +292,18 @@ class Gantry(Structure, name="frame/gantry", label="beam", grain="fitting"):
     leg_size: float = between(0.06, 0.1, "height of a leg's section", "m")
     leg: str = among(("SHS", "CHS", "U", "L"), "section of the legs")
     tripod: bool = chance(0.3, "three legs that meet")
-    ties: tuple[bool, ...] = each(
-        yes(0.8), "whether a tie is between two legs of a tripod", count=3, when=lambda p: p.tripod
+    ties: tuple[bool, ...] = several(
+        yes(0.8), 3, "whether a tie is between two legs of a tripod", when=lambda p: p.tripod
     )
-    wheeled: bool = chance(0.6, "on casters", when=_portal)
+    wheeled: bool = chance(0.6, "on casters", when=_is_portal)
     make: str = among(("swivel", "heavy", "braked"), "of the casters", when=_on_casters)
     radius: float = between(0.05, 0.09, "of a caster's wheel", "m", when=_on_casters)
     casters: Casters = nested(Casters, "casters", fixed=lambda p: {"makes": (p.make,)}, when=_on_casters)
-    called: tuple[str, ...] = each(one_of("brace", "beam"), "what a tie is called", count=2, when=_portal)
-    runway_size: float = between(0.12, 0.24, "height of the runway's section", "m", when=_portal)
-    runway: str = among(("I", "IPN", "H"), "section of the runway", when=_portal)
-    eyed: bool = chance(0.6, "a lifting eye under the runway", when=_portal)
-    braced: bool = chance(0.5, "knee braces to the runway", when=_portal)
+    called: tuple[str, ...] = several(one_of("brace", "beam"), 2, "what a tie is called", when=_is_portal)
+    runway_size: float = between(0.12, 0.24, "height of the runway's section", "m", when=_is_portal)
+    runway: str = among(("I", "IPN", "H"), "section of the runway", when=_is_portal)
+    eyed: bool = chance(0.6, "a lifting eye under the runway", when=_is_portal)
+    braced: bool = chance(0.5, "knee braces to the runway", when=_is_portal)
 
     def build(self, t: Table) -> Model:
         leg = section(self.leg, self.leg_size, t.style)
@@ -329,11 +327,11 @@ class Gantry(Structure, name="frame/gantry", label="beam", grain="fitting"):
         if self.wheeled:
             low = self.casters.build(t, spots, self.radius)
         else:
-            spread(t, "base plate", [box((0.2, 0.2, 0.01), (x, y, 0.005)) for x, y in spots])
+            t.add_each("base plate", [box((0.2, 0.2, 0.01), (x, y, 0.005)) for x, y in spots])
         deep = float(np.ptp(leg[0][:, 1])) / 2
         for x, name in zip((0.0, w), self.called, strict=True):
             t.add("beam", bar((x, -d / 2 - 0.1, low + deep), (x, d / 2 + 0.1, low + deep), leg))
-            spread(t, "column", [bar((x, s * d / 2, low + 2 * deep), (x, s * 0.06, h), leg) for s in BOTH])
+            t.add_each("column", [bar((x, s * d / 2, low + 2 * deep), (x, s * 0.06, h), leg) for s in BOTH])
             t.add(name, bar((x, -0.3 * d, 0.45 * h), (x, 0.3 * d, 0.45 * h), leg))
             t.add("plate", box((0.2, 0.3, 0.015), (x, 0, h + 0.0075)))
         one, top = section(self.runway, self.runway_size, t.style), h + 0.015
@@ -343,7 +341,7 @@ class Gantry(Structure, name="frame/gantry", label="beam", grain="fitting"):
             t.at(w * 0.4, 0, top).spun("x", np.pi).add("lifting lug", lug(t.style, 0.08, 0.02), of="steel")
         if self.braced:
             thin, ends = section("SHS", 0.05, t.style), ((w, w - 0.5), (0.0, 0.5))
-            spread(t, "brace", [bar((a, 0, h - 0.5), (b, 0, top), thin) for a, b in ends])
+            t.add_each("brace", [bar((a, 0, h - 0.5), (b, 0, top), thin) for a, b in ends])
         return t.model()
 
 
@@ -362,12 +360,12 @@ class Small(Structure, name="frame/small support", label="beam", weight=1.2, gra
     width: float = between(0.4, 1.4, "of it, or reach of a bracket", "m")
     size: float = between(0.05, 0.12, "height of the section", "m")
     shape: str = among(("SHS", "U", "L", "strut", "H", "CHS"), "section")
-    legs: tuple[_Leg, ...] = each(
-        made(_Leg), "post", count=lambda p: 1 if p.form == "T-post" else 2, when=of_form("T-post", "goalpost")
+    legs: tuple[_Leg, ...] = several(
+        made(_Leg), lambda p: 1 if p.form == "T-post" else 2, "post", when=of_form("T-post", "goalpost")
     )
     braced: bool = chance(0.6, "braces under a T", when=of_form("T-post"))
-    knees: tuple[str, ...] = each(
-        one_of("L", "flat", "SHS"), "section of a bracket's brace", count=2, when=of_form("bracket")
+    knees: tuple[str, ...] = several(
+        one_of("L", "flat", "SHS"), 2, "section of a bracket's brace", when=of_form("bracket")
     )
     over: str = among(("H", "I"), "section of the beam over a trapeze", when=of_form("trapeze"))
     called: str = among(("beam", "bracket"), "what a trapeze is called", when=of_form("trapeze"))
@@ -386,7 +384,7 @@ class Small(Structure, name="frame/small support", label="beam", weight=1.2, gra
         t.add("beam", bar((-w / 2, 0, h - y0), (w / 2, 0, h - y0), one))
         if self.braced:
             thin = section("L", 0.035, t.style)
-            spread(t, "brace", [bar((0, 0, h - 0.3 * w), (s * 0.35 * w, 0, h), thin) for s in BOTH])
+            t.add_each("brace", [bar((0, 0, h - 0.3 * w), (s * 0.35 * w, 0, h), thin) for s in BOTH])
 
     def _bracket(self, t: Table, one: Section, y0: float) -> None:
         h, w, drop = self.height, self.width, min(0.6 * self.width, 0.7 * self.height)
@@ -402,11 +400,11 @@ class Small(Structure, name="frame/small support", label="beam", weight=1.2, gra
         h, w, top, post = self.height, self.width, self.height + 1.0, section("SHS", 0.08, t.style)
         over = section(self.over, 0.14, t.style)
         _x0, _x1, low, high = span_of(over)
-        spread(t, "column", [bar((s * w, 0, 0), (s * w, 0, top - high), post) for s in BOTH])
+        t.add_each("column", [bar((s * w, 0, 0), (s * w, 0, top - high), post) for s in BOTH])
         t.add("beam", bar((-w, 0, top), (w, 0, top), over))
         end, x = h + 2 * y0 - 0.04, 0.4 * w
         rods = [rod((s * x, 0, end), (s * x, 0, top + low), 0.006, 8) for s in BOTH]
-        spread(t, "stud", rods, fine=False)
+        t.add_each("stud", rods, fine=False)
         t.add(self.called, bar((-w / 2, 0, h + y0), (w / 2, 0, h + y0), one))
 
 
@@ -428,7 +426,7 @@ class _Plate(Params):
     drilled: bool = chance(0.6, "with holes, but for one cut off", when=_flat)
     lies: str = among(("on a wall", "stacked", "ribbed", "plain"), "how it lies", when=_flat)
     count: int = whole(2, 5, "plates of a stack", when=lambda p: p.lies == "stacked")
-    shifts: tuple[float, ...] = each(number(-0.02, 0.02), "how far one is out of line", "m")
+    shifts: tuple[float, ...] = several(number(-0.02, 0.02), lambda p: p.count, "how far one is out of line", "m")
 
     def build(self, t: Table) -> None:
         """Puts it down about z."""
@@ -455,19 +453,19 @@ class _Plate(Params):
             t.add("wall", box((a + 0.3, 0.15, b + 0.3), (0, 0.175, (b + 0.3) / 2)))
             t.at(0, 0.1, y).spun("x", np.pi / 2).add("plate", solid)
         elif self.lies == "stacked":
-            spread(t, "plate", [moved(solid, at(shift, 0, k * thick)) for k, shift in enumerate(self.shifts)])
+            t.add_each("plate", [moved(solid, at(shift, 0, k * thick)) for k, shift in enumerate(self.shifts)])
         else:
             t.add("plate", solid)
             if self.lies == "ribbed" and self.form in ("plain", "clipped"):
                 ribs = [box((0.7 * a, 0.008, 0.06), (0, s * 0.18 * b, thick + 0.03)) for s in BOTH]
-                spread(t, "plate", ribs)
+                t.add_each("plate", ribs)
 
 
 class LoosePlates(Structure, name="plate/loose", weight=1.2, grain="fitting"):
     """Loose plates: blank, drilled, clipped, round, ribbed or bent; lying, stacked or on a wall."""
 
     count: int = whole(3, 6, "plates or stacks")
-    plates: tuple[_Plate, ...] = each(made(_Plate), "plate or stack")
+    plates: tuple[_Plate, ...] = several(made(_Plate), lambda p: p.count, "plate or stack")
 
     def build(self, t: Table) -> Model:
         for k, plate in enumerate(self.plates):

@@ -9,14 +9,13 @@ import numpy as np
 
 from cadgraph.model.scene import Floats
 from cadplants.builder.device import families_of
-from cadplants.builder.draws import yes
+from cadplants.builder.draws import made, yes
 from cadplants.builder.params import Params, Source, among, between, chance, given, nested, several, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.steel.shape import (
     Structure,
     bar,
     bolts,
-    each,
     few_sides,
     pipe,
     ribbon,
@@ -24,7 +23,6 @@ from cadplants.families.steel.shape import (
     slab_xy,
     slab_xz,
     span_of,
-    spread,
 )
 from cadplants.family import Model
 from cadplants.mesh_ops import Solid, merge, moved
@@ -180,7 +178,7 @@ class _Turn(Params):
 
 
 def _turns(fixed: bool) -> Callable[[Rng, Any], _Turn]:
-    return lambda rng, p: _Turn.draw(rng, {"swivels": not fixed, "plated": p.makes[0] not in ("stem", "twin")})
+    return made(_Turn, lambda p: {"swivels": not fixed, "plated": p.makes[0] not in ("stem", "twin")})
 
 
 def _one(fixed: bool) -> Callable[[Source, Any], Caster]:
@@ -244,8 +242,8 @@ class _Dolly(Structure, grain="fitting"):
             t.add(self.plate, slab_xy(rounded_rectangle(a, b, self.corner, 3), z, z + 0.01))
         elif self.deck == "frame":
             one, h = section(self.tube, 2.0 * r, t.style), z + r
-            spread(t, "skid frame", [bar((-a / 2, s * y, h), (a / 2, s * y, h), one) for s in BOTH])
-            spread(t, "skid frame", [bar((s * 0.4 * a, -y, h), (s * 0.4 * a, y, h), one) for s in BOTH])
+            t.add_each("skid frame", [bar((-a / 2, s * y, h), (a / 2, s * y, h), one) for s in BOTH])
+            t.add_each("skid frame", [bar((s * 0.4 * a, -y, h), (s * 0.4 * a, y, h), one) for s in BOTH])
         else:
             pan = [box((a, b, 0.004), (0, 0, z + 0.002))]
             pan += [box((a, 0.004, 0.06), (0, s * (b / 2 + 0.002), z + 0.03)) for s in BOTH]
@@ -294,7 +292,7 @@ class Trolley(Structure, name="caster/stem", weight=1.2, grain="fitting"):
         r, a, b, h, d = self.radius, self.length, self.width, self.height, max(0.014, 0.4 * self.radius)
         spots = [(sx * a / 2, sy * b / 2) for sx, sy in CORNERS]
         z = self.casters.build(t, spots, r)
-        spread(t, "post", [pipe([(x, y, z), (x, y, z + h)], d, t.style) for x, y in spots])
+        t.add_each("post", [pipe([(x, y, z), (x, y, z + h)], d, t.style) for x, y in spots])
         for level in z + np.linspace(0.1, 1.0, self.shelves) * h:
             shelf = slab_xy(rounded_rectangle(a + 2 * d, b + 2 * d, 2 * d, 3), level - 0.012, level + 0.012)
             t.add("plate", shelf, of="clamp")
@@ -322,9 +320,9 @@ class Cart(Structure, name="caster/cart wheels", weight=1.2, grain="fitting"):
         r, a, b, one = self.radius, self.length, self.width, section(self.shape, self.size, t.style)
         h, w = float(np.ptp(one[0][:, 1])) / 2, self.wide * r
         z = r + 0.15 * r + h
-        spread(t, "skid frame", [bar((-a / 2, s * b / 2, z), (a / 2, s * b / 2, z), one) for s in BOTH])
+        t.add_each("skid frame", [bar((-a / 2, s * b / 2, z), (a / 2, s * b / 2, z), one) for s in BOTH])
         xs = np.linspace(-0.45 * a, 0.45 * a, 3)
-        spread(t, "skid frame", [bar((x, -b / 2, z), (x, b / 2, z), one) for x in xs])
+        t.add_each("skid frame", [bar((x, -b / 2, z), (x, b / 2, z), one) for x in xs])
         for x in (-0.3 * a,) if self.axles == 1 else (-0.32 * a, 0.32 * a):
             y, thick = b / 2 + 0.04 + 0.6 * w, 0.14 * r
             t.add("caster", rod((x, -y - w, r), (x, y + w, r), thick, few_sides(t.style, thick, 12)), of="trim")
@@ -333,10 +331,10 @@ class Cart(Structure, name="caster/cart wheels", weight=1.2, grain="fitting"):
                     t.at(x, s * y, r).add("caster", solid, of=of)
                 t.add("bracket", box((0.3 * r, 0.02, 0.3 * r), (x, s * b / 2, r + 0.1 * r)))
         if self.axles == 1:
-            spread(t, "post", [box((0.04, 0.04, z - h), (0.4 * a, s * b / 2, (z - h) / 2)) for s in BOTH])
+            t.add_each("post", [box((0.04, 0.04, z - h), (0.4 * a, s * b / 2, (z - h) / 2)) for s in BOTH])
             ways = ((-0.1, z + h), (0.35, z + 0.2), (0.55, z + 0.2))
             grips = [pipe([(a / 2 + x, s * b / 2, up) for x, up in ways], 0.016, t.style, 0.08) for s in BOTH]
-            spread(t, "railing", grips, of="handle")
+            t.add_each("railing", grips, of="handle")
         else:
             t.add("brace", pipe([(0.45 * a, 0, z), (a / 2 + 0.7, 0, 0.1)], 0.02, t.style), of="handle")
             eye = along("x", ring(0.025, 0.04, -0.012, 0.012, 12), a / 2 + 0.705, 0, 0.09)
@@ -366,9 +364,9 @@ class RailWheels(Structure, name="caster/rail wheels", grain="fitting"):
         rail = section(self.rail, 0.5 * w if grooved else 0.7 * r, t.style)
         _x0, _x1, y0, y1 = span_of(rail)
         z = y1 - y0 + (0.75 * r if grooved else 0.83 * r) - (0.12 * w if grooved else 0.0)
-        spread(t, "beam", [bar((-a, s * b / 2, -y0), (a, s * b / 2, -y0), rail) for s in BOTH])
+        t.add_each("beam", [bar((-a, s * b / 2, -y0), (a, s * b / 2, -y0), rail) for s in BOTH])
         sleepers = [box((0.1, b + 0.4, 0.06), (x, 0, -0.03)) for x in np.linspace(-0.9 * a, 0.9 * a, 4)]
-        spread(t, "beam", sleepers, of="safety")
+        t.add_each("beam", sleepers, of="safety")
         made, deep = wheel(self.wheel, r, w, t.style), box_h + 0.3 * r
         for sx, sy in CORNERS:
             here = t.at(sx * 0.38 * a, sy * b / 2, z)
@@ -381,8 +379,8 @@ class RailWheels(Structure, name="caster/rail wheels", grain="fitting"):
         one = section(self.shape, self.size, t.style)
         h = float(np.ptp(one[0][:, 1])) / 2
         level = z + box_h + h
-        spread(t, "skid frame", [bar((-a / 2, s * b / 2, level), (a / 2, s * b / 2, level), one) for s in BOTH])
-        spread(t, "skid frame", [bar((s * 0.45 * a, -b / 2, level), (s * 0.45 * a, b / 2, level), one) for s in BOTH])
+        t.add_each("skid frame", [bar((-a / 2, s * b / 2, level), (a / 2, s * b / 2, level), one) for s in BOTH])
+        t.add_each("skid frame", [bar((s * 0.45 * a, -b / 2, level), (s * 0.45 * a, b / 2, level), one) for s in BOTH])
         if self.decked:
             t.add("plate", box((a, b + 0.1, 0.008), (0, 0, level + h + 0.004)), of="clamp")
         return t.model()
@@ -396,7 +394,7 @@ class Skates(Structure, name="caster/skates", weight=0.6, grain="fitting"):
     wide: float = between(3.0, 5.0, "width of a skate / radius of a roller")
     length: float = between(0.8, 1.8, "from skate to skate, along the beams", "m")
     width: float = between(0.5, 1.0, "from beam to beam", "m")
-    joined: tuple[bool, ...] = each(yes(0.5), "whether a skate is one mesh", count=4)
+    joined: tuple[bool, ...] = several(yes(0.5), 4, "whether a skate is one mesh")
     size: float = between(0.1, 0.2, "height of a beam", "m")
     shape: str = among(("H", "RHS", "U"), "section of the beams")
 
@@ -413,10 +411,10 @@ class Skates(Structure, name="caster/skates", weight=0.6, grain="fitting"):
                 here.add("caster", *frame, *rollers, pad, of="handle")
             else:
                 here.add("caster", *frame, pad, of="handle")
-                spread(here, "caster", rollers)
+                here.add_each("caster", rollers)
         one = section(self.shape, self.size, t.style)
         z = high + float(np.ptp(one[0][:, 1])) / 2
-        spread(t, "beam", [bar((-a / 2 - 0.2, s * b / 2, z), (a / 2 + 0.2, s * b / 2, z), one) for s in BOTH])
+        t.add_each("beam", [bar((-a / 2 - 0.2, s * b / 2, z), (a / 2 + 0.2, s * b / 2, z), one) for s in BOTH])
         return t.model()
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from cadgraph.model.scene import Floats
 from cadplants.builder.device import families_of
 from cadplants.builder.draws import of_form, one_of, yes
-from cadplants.builder.params import among, between, chance, nested, whole
+from cadplants.builder.params import among, between, chance, nested, several, whole
 from cadplants.builder.table import Table
 from cadplants.families.steel.shape import (
     Base,
@@ -17,14 +17,12 @@ from cadplants.families.steel.shape import (
     bar,
     bases,
     bolts,
-    each,
     few_sides,
     rect,
     ribbon,
     section,
     slab_xy,
     slab_xz,
-    spread,
 )
 from cadplants.family import Model
 from cadplants.mesh_ops import Solid, extrude, loft, merge, moved, weld
@@ -65,7 +63,7 @@ class Plinth(Structure, name="foundation/plinth", weight=1.4, grain="fitting"):
         if self.top == "anchors":
             bolts(t, [at(x, y, h) for x, y in spots], self.anchor, 0.03)
         elif self.top == "sole plates" and form != "recessed":
-            spread(t, "base plate", [box((0.16, 0.12, 0.02), (x, y, h + 0.01)) for x, y in spots])
+            t.add_each("base plate", [box((0.16, 0.12, 0.02), (x, y, h + 0.01)) for x, y in spots])
             bolts(t, [at(x, y, h + 0.02) for x, y in spots], 0.014, 0.02)
         elif self.top == "grout" and form in ("chamfered", "battered"):
             t.add("foundation", box((0.8 * a, 0.8 * b, 0.03), (0, 0, h + 0.015)), of="ground")
@@ -117,10 +115,10 @@ class Footing(Structure, name="foundation/footing", weight=1.2, grain="fitting")
             solids.append(extrude(rect(1.6 * p, 1.6 * p), deep, h, (rect(1.05 * p, 1.05 * p),)))
         else:
             solids.append(extrude(circle(p / 2, n) if self.round else rect(p, p), deep, h))
-        spread(t, "foundation", solids, joined=self.joined)
+        t.add_each("foundation", solids, joined=self.joined)
         if self.form == "piles":
             pile = cylinder(0.15, -1.0, 0.0, few_sides(t.style, 0.15, 24))
-            spread(t, "foundation", [moved(pile, at(sx * 0.3 * a, sy * 0.3 * a)) for sx, sy in CORNERS])
+            t.add_each("foundation", [moved(pile, at(sx * 0.3 * a, sy * 0.3 * a)) for sx, sy in CORNERS])
         if self.form == "socket":
             size = (0.95 * p, 0.95 * p, self.column)
             t.add("column", box(size, (0, 0, deep + self.column / 2)), of="concrete")
@@ -152,7 +150,7 @@ class RingBase(Structure, name="foundation/ring", weight=0.8, grain="fitting"):
             step = [(r + w, 0), (r + w, 0.5 * h), (r + 0.3 * w, 0.5 * h), (r + 0.3 * w, h)]
             t.add("foundation", turned(step, n))
         poses = [spun("z", 2 * np.pi * k / self.chairs) @ at(r, 0, h) for k in range(self.chairs)]
-        spread(t, "base plate", [moved(box((0.12, 0.12, 0.012), (0, 0, 0.006)), pose) for pose in poses])
+        t.add_each("base plate", [moved(box((0.12, 0.12, 0.012), (0, 0, 0.006)), pose) for pose in poses])
         if poses:
             bolts(t, [pose @ at(0, 0, 0.012) for pose in poses], 0.02, 0.012)
         return t.model()
@@ -171,7 +169,9 @@ class Strip(Structure, name="foundation/strip", grain="fitting"):
     wide: float = between(0.15, 0.5, "width of a strip", "m")
     height: float = between(0.15, 0.5, "of a strip", "m")
     gap: float = between(0.8, 1.6, "from strip to strip", "m")
-    plated: tuple[bool, ...] = each(yes(0.6), "whether a plate is on a sleeper", when=of_form("sleepers"))
+    plated: tuple[bool, ...] = several(
+        yes(0.6), lambda p: p.count, "whether a plate is on a sleeper", when=of_form("sleepers")
+    )
     size: float = between(0.1, 0.2, "height of the section on it", "m", when=_carrying)
     shape: str = among(("H", "U", "RHS"), "section on it", when=_carrying)
     called: str = among(("beam", "skid frame"), "what that is called", when=_carrying)
@@ -212,7 +212,7 @@ class Masonry(Structure, name="wall/masonry"):
     block: float = among((0.4, 0.5), "length of a block", "m", when=lambda p: p.big, otherwise=0.25)
     joined: bool = chance(0.8, "the courses are one mesh")
     pilasters: int = whole(0, 3, "before it")
-    labels: tuple[str, ...] = each(one_of("wall", "column"), "what a pilaster is called", count=lambda p: p.pilasters)
+    labels: tuple[str, ...] = several(one_of("wall", "column"), lambda p: p.pilasters, "what a pilaster is called")
     coped: bool = chance(0.6, "with coping")
 
     def build(self, t: Table) -> Model:
@@ -228,7 +228,7 @@ class Masonry(Structure, name="wall/masonry"):
             for a, b in zip(edges[:-1], edges[1:], strict=True):
                 solids.append(box((b - a - 0.002, thick, high - 0.001), ((a + b) / 2, 0, (k + 0.5) * high)))
         top = rows * high
-        spread(own, "wall", solids, joined=self.joined)
+        own.add_each("wall", solids, joined=self.joined)
         for x, name in zip(np.linspace(0.15, long - 0.15, self.pilasters), self.labels, strict=True):
             t.add(name, box((0.3, thick + 0.2, top), (x, 0, top / 2)), of="concrete")
         if self.coped:
@@ -258,7 +258,7 @@ class Clad(Structure, name="wall/clad", grain="fitting"):
             low = base.build(t.at(k * w), 0.25, 0.28)
             t.add("column", bar((k * w, 0, low), (k * w, 0, h), post, (0, 1, 0)))
         rails = [bar((0, y, z), (long, y, z), rail, (0, 1, 0)) for z in (0.3, h / 2, h - 0.15)]
-        spread(t, "beam", rails, of="clamp")
+        t.add_each("beam", rails, of="clamp")
         y -= 0.06
         if self.face == "trapezoidal":
             xs = np.linspace(0, long, 2 * max(8, int(long / 0.12)) + 1)
@@ -267,7 +267,7 @@ class Clad(Structure, name="wall/clad", grain="fitting"):
         elif self.face == "sandwich":
             n = max(2, int(long / 0.6))
             panel = box((long / n - 0.004, 0.08, h - 0.05), (0, y - 0.04, h / 2))
-            spread(t.bundled("wall"), "wall", [moved(panel, at((k + 0.5) * long / n)) for k in range(n)], of="fence")
+            t.bundled("wall").add_each("wall", [moved(panel, at((k + 0.5) * long / n)) for k in range(n)], of="fence")
         else:
             hole = rect(0.9, 0.8, long / 2, 0.6 * h)
             t.add("wall", slab_xz(rect(long, h, long / 2, h / 2), 0.1, y - 0.05, (hole,) if long > 1.4 else ()))
@@ -307,7 +307,7 @@ class Bund(Structure, name="wall/bund", grain="fitting"):
             t.add("wall", extrude(outside, 0, h, (inside,)))
         else:
             sides = zip(outside, np.roll(outside, -1, axis=0), np.roll(inside, -1, axis=0), inside, strict=True)
-            spread(own, "wall", [extrude(np.array(side), 0, h) for side in sides])
+            own.add_each("wall", [extrude(np.array(side), 0, h) for side in sides])
         t.add("ground", box((a + 0.3, b + 0.3, 0.15), (0, 0, -0.075)), of="concrete")
         if self.plated:
             t.add("plate", box((0.7, 0.06, 0.02), (-a / 4, -b / 2 - 0.03, h - 0.01)))
@@ -333,11 +333,11 @@ class Retaining(Structure, name="wall/retaining"):
             foot, count = self.foot * h, max(1, int(long))
             shape = np.array([(0, 0), (foot, 0), (foot, w), (w, w), (0.8 * w, h), (0, h)])
             solid = slab_xz(shape, long / count - 0.006)
-            spread(t, "wall", [moved(solid, at(0, (k + 0.5) * long / count)) for k in range(count)])
+            t.add_each("wall", [moved(solid, at(0, (k + 0.5) * long / count)) for k in range(count)])
         elif self.form == "buttresses":
             rib = slab_xz([(0, 0), (0.5 * h, 0), (0.05, h), (0, h)], 0.15)
             ribs = [moved(rib, at(x, w / 2) @ spun("z", np.pi / 2)) for x in np.linspace(0.2, long - 0.2, 3)]
-            spread(t.bundled("wall"), "wall", [slab_xz(plain, w), *ribs], joined=self.joined)
+            t.bundled("wall").add_each("wall", [slab_xz(plain, w), *ribs], joined=self.joined)
         elif self.form == "curved":
             a = np.linspace(0, min(long / self.bend, 2.5), 13)
             unit = np.column_stack([np.cos(a), np.sin(a)])

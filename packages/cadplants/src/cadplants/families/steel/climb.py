@@ -7,20 +7,18 @@ import numpy as np
 from cadgraph.model.scene import Floats
 from cadplants.builder.device import families_of
 from cadplants.builder.draws import of_form, one_of
-from cadplants.builder.params import Params, among, between, chance, given, nested, whole
+from cadplants.builder.params import Params, among, between, chance, given, nested, several, whole
 from cadplants.builder.table import Table
 from cadplants.families.steel.caster import Casters
 from cadplants.families.steel.floor import panel
 from cadplants.families.steel.shape import (
     Structure,
     bar,
-    each,
     few_sides,
     filleted,
     pipe,
     section,
     span_of,
-    spread,
 )
 from cadplants.family import Model
 from cadplants.mesh_ops import Solid, merge, moved, sweep
@@ -71,10 +69,10 @@ class _Back(Params):
         else:
             one = section(self.column, 0.14, t.style)
             back = y + span_of(one)[3]
-            spread(t, "column", [bar((s * wide / 2, back, 0), (s * wide / 2, back, h), one, (0, 1, 0)) for s in BOTH])
+            t.add_each("column", [bar((s * wide / 2, back, 0), (s * wide / 2, back, h), one, (0, 1, 0)) for s in BOTH])
         for z in np.linspace(0.35, h - 0.3, max(2, int(h / 1.6))):
             x = wide / 2 - 0.02
-            spread(t, "bracket", [box((0.01, y + 0.02, 0.05), (s * x, y / 2 - 0.01, z)) for s in BOTH])
+            t.add_each("bracket", [box((0.01, y + 0.02, 0.05), (s * x, y / 2 - 0.01, z)) for s in BOTH])
 
 
 class Fixed(Structure, name="ladder/fixed", weight=1.2):
@@ -103,7 +101,7 @@ class Fixed(Structure, name="ladder/fixed", weight=1.2):
                 solids.append(pipe([(x, 0, h), (s * 0.32, 0, h + 0.2), (s * 0.32, 0, h + 1.0)], 0.019, style, 0.08))
         if self.fall_rail:
             solids.append(box((0.05, 0.03, h - 0.2), (0, -0.025, h / 2)))
-        spread(t.bundled("ladder"), "ladder", solids, joined=self.joined)
+        t.bundled("ladder").add_each("ladder", solids, joined=self.joined)
         self.back.build(t, h, wide)
         return t.model()
 
@@ -138,7 +136,7 @@ class Hooped(Structure, name="ladder/hoops"):
         size = (0.03, 0.03, h - 2.2) if self.tubes else (0.025, 0.012, h - 2.2)
         for f in np.linspace(0.2, 0.8, self.straps) * s[-1]:
             solids.append(box(size, (*(float(np.interp(f, s, corners[:, k])) for k in (0, 1)), (h + 2.2) / 2)))
-        spread(t.bundled("ladder"), "ladder", solids, joined=self.joined)
+        t.bundled("ladder").add_each("ladder", solids, joined=self.joined)
         self.back.build(t, h, wide)
         return t.model()
 
@@ -160,7 +158,7 @@ class Ship(Structure, name="ladder/ship"):
         h, wide, angle, own = self.height, self.width, np.radians(self.slope), t.bundled("ladder")
         run = h / np.tan(angle)
         one = section(self.string, self.size, t.style)
-        spread(own, "ladder", [bar((0, s * wide / 2, 0), (run, s * wide / 2, h), one) for s in BOTH])
+        own.add_each("ladder", [bar((0, s * wide / 2, 0), (run, s * wide / 2, h), one) for s in BOTH])
         step = panel(self.step, self.deep, wide, 0.025, t.style)
         for z in np.arange(0.22, h - 0.1, 0.22):
             own.at(z / np.tan(angle), 0, z - 0.025).add("stair tread", step, of="clamp")
@@ -171,7 +169,7 @@ class Ship(Structure, name="ladder/ship"):
             t.add("railing", pipe(path, 0.017, t.style, 0.1), of="handle")
         edge, x, z = section(self.landing, 0.14, t.style), run + 0.05, h - 0.07
         t.add("beam", bar((x, -wide, z), (x, wide, z), edge))
-        spread(t, "column", [box((0.1, 0.1, h - 0.14), (run + 0.07, s * 0.8 * wide, (h - 0.14) / 2)) for s in BOTH])
+        t.add_each("column", [box((0.1, 0.1, h - 0.14), (run + 0.07, s * 0.8 * wide, (h - 0.14) / 2)) for s in BOTH])
         return t.model()
 
 
@@ -180,8 +178,8 @@ class _Portable(Params):
 
     long: float = given(3.0, "length", "m")
     low: float = given(0.0, "where it begins", "m")
-    rungs: tuple[str, ...] = each(
-        one_of("round", "square"), "how a rung is made", count=lambda p: len(_levels(p.low, p.long))
+    rungs: tuple[str, ...] = several(
+        one_of("round", "square"), lambda p: len(_levels(p.low, p.long)), "how a rung is made"
     )
     joined: bool = chance(0.45, "in one mesh")
 
@@ -219,13 +217,13 @@ class Leaning(Structure, name="ladder/leaning", weight=0.7, grain="fitting"):
             if k == 0 and not hung:
                 solids += [box((0.04, 0.08, 0.03), (s * x, 0, 0.01)) for s in BOTH]
             here = leant.at(-long / 2, 0, 1.2).spun("y", np.pi / 2) if hung else leant.at(0, -0.06 * k, 0)
-            spread(here, "ladder", solids, of="clamp", joined=part.joined)
+            here.add_each("ladder", solids, of="clamp", joined=part.joined)
         high = 2.0 if hung else long * np.cos(tilt)
         y = 0.035 if hung else long * np.sin(tilt) + 0.03 * np.cos(tilt)
         t.add("wall", box((long + 0.4 if hung else 1.6, 0.15, high), (0, y + 0.075, high / 2)))
         if hung:
             z = 1.2 - wide / 2 - 0.03
-            spread(t, "bracket", [box((0.04, 0.1, 0.03), (s * 0.3 * long, -0.015, z)) for s in BOTH])
+            t.add_each("bracket", [box((0.04, 0.1, 0.03), (s * 0.3 * long, -0.015, z)) for s in BOTH])
         return t.model()
 
 
@@ -258,8 +256,8 @@ class Steps(Structure, name="ladder/steps", weight=0.8, grain="fitting"):
         if self.joined:
             t.add("ladder", *solids, *treads, of="clamp")
         else:
-            spread(t.bundled("ladder"), "ladder", solids, of="clamp")
-            spread(t.bundled("ladder"), "stair tread", treads, of="clamp")
+            t.bundled("ladder").add_each("ladder", solids, of="clamp")
+            t.bundled("ladder").add_each("stair tread", treads, of="clamp")
         return t.model()
 
 
@@ -313,7 +311,7 @@ class Mobile(Structure, name="ladder/mobile", weight=0.9, grain="fitting"):
             own.add("ladder", pipe([(0, y, z), (run + land, y, z)], d, style))
             own.add("ladder", pipe([(0.0, y, z), (run, y, h)], d, style))
             posts = [pipe([(x, y, z), (x, y, h)], d, style) for x in (run, run + land)]
-            spread(own, "post", posts, of="safety")
+            own.add_each("post", posts, of="safety")
             if self.railed:
                 foot, far = low + 0.4 * rise, run + land
                 ways = ((0.4 * run, foot), (0.4 * run, foot + 0.8), (run, h + 0.95), (far, h + 0.95), (far, h))

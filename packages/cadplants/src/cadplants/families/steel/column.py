@@ -21,7 +21,6 @@ from cadplants.families.steel.shape import (
     slab_xy,
     slab_xz,
     span_of,
-    spread,
 )
 from cadplants.family import Model
 from cadplants.mesh_ops import Solid, extrude, moved
@@ -175,7 +174,7 @@ class Pole(Structure, name="column/pole", grain="fitting"):
             t.add("plate", cylinder(1.8 * r, h, h + 0.015, n))
         else:
             r, z = 0.45 * r, 0.6 * h
-            spread(own, "column", [cylinder(r, low, z, n), cylinder(0.8 * r, z, h, n)])
+            own.add_each("column", [cylinder(r, low, z, n), cylinder(0.8 * r, z, h, n)])
             t.add("nut", cylinder(1.5 * r, z - 0.05, z + 0.01, n), of="handle", fine=False)
             t.add("bolt", pipe([(-0.08, 0, z + 0.1), (0.08, 0, z + 0.1)], 0.007, t.style), fine=False)
             t.add("plate", box((0.13, 0.13, 0.006), (0, 0, h + 0.003)))
@@ -194,7 +193,7 @@ class BuiltUp(Structure, name="column/built up", grain="fitting"):
 
     def build(self, t: Table) -> Model:
         low = self.base.build(t, self.width + 0.14, self.width + 0.14)
-        spread(t.bundled("column"), "column", self._shaft(low, t.style), joined=self.joined)
+        t.bundled("column").add_each("column", self._shaft(low, t.style), joined=self.joined)
         self.cap.build(t.at(0, 0, self.height), self.width + 0.1)
         return t.model()
 
@@ -230,7 +229,7 @@ class Timber(Structure, name="column/timber", weight=0.6, grain="fitting"):
         square, thin = section("square", a, t.style), section("timber", 0.7 * a, t.style)
         for x in (0.0, w):
             t.add("base plate", box((a + 0.08, a + 0.04, 0.008), (x, 0, 0.004)))
-            spread(t, "bracket", [box((a, 0.006, 0.25), (x, s * (a / 2 + 0.003), 0.133)) for s in BOTH])
+            t.add_each("bracket", [box((a, 0.006, 0.25), (x, s * (a / 2 + 0.003), 0.133)) for s in BOTH])
             t.add("column", bar((x, 0, 0.008), (x, 0, h), square), of=wood)
         t.add("beam", bar((-0.3, 0, h + a / 2), (w + 0.3, 0, h + a / 2), square), of=wood)
         for x, s in ((0.0, 1), (w, -1)):

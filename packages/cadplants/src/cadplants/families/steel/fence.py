@@ -9,7 +9,7 @@ import numpy as np
 
 from cadplants.builder.device import families_of
 from cadplants.builder.draws import made, number, one_of, yes
-from cadplants.builder.params import Params, among, between, chance, given, nested, whole
+from cadplants.builder.params import Params, among, between, chance, given, nested, several, whole
 from cadplants.builder.table import Table
 from cadplants.families.steel.caster import wheel
 from cadplants.families.steel.shape import (
@@ -18,14 +18,12 @@ from cadplants.families.steel.shape import (
     bar,
     bases,
     bolts,
-    each,
     few_sides,
     pipe,
     ribbon,
     section,
     slab_xy,
     slab_xz,
-    spread,
 )
 from cadplants.family import Model
 from cadplants.mesh_ops import Solid, extrude, merge, moved
@@ -40,7 +38,7 @@ _JOINED = "in one mesh"
 
 def _whole(t: Table, name: str, solids: Iterable[Solid], joined: bool, of: str) -> None:
     """One mesh, or as many as there are pieces."""
-    spread(t.bundled(name), name, solids, of=of, joined=joined)
+    t.bundled(name).add_each(name, solids, of=of, joined=joined)
 
 
 class _Post(Params):
@@ -59,7 +57,9 @@ class Posts(Params):
     shape: str = among(lambda p: p.shapes, "section")
     size: float = between(0.045, 0.09, "height of the section", "m")
     foot: str = among(("plates", "concrete", "ground"), "what they stand in")
-    members: tuple[_Post, ...] = each(made(_Post, lambda p: {"plated": p.foot == "plates"}), "post")
+    members: tuple[_Post, ...] = several(
+        made(_Post, lambda p: {"plated": p.foot == "plates"}), lambda p: p.count, "post"
+    )
 
     @staticmethod
     def of(*shapes: str) -> Posts:
@@ -95,7 +95,7 @@ class Palisade(Structure, name="fence/palisade"):
     height: float = between(1.5, 2.6, "of a pale", "m")
     posts: Posts = Posts.of("I", "H", "SHS")
     head: str = among(("point", "notch", "bevel"), "of a pale")
-    joined: tuple[bool, ...] = each(yes(0.65), "whether a bay is one mesh")
+    joined: tuple[bool, ...] = several(yes(0.65), lambda p: p.count, "whether a bay is one mesh")
 
     def build(self, t: Table) -> Model:
         w, h, x = self.width, self.height, 0.065 / 2
@@ -129,7 +129,7 @@ class WeldedMesh(Structure, name="fence/welded mesh", weight=1.2):
     width: float = between(1.2, 2.5, "of a panel", "m")
     height: float = between(0.8, 2.4, "of a panel", "m")
     posts: Posts = Posts.of("SHS", "RHS", "CHS")
-    panels: tuple[_MeshPanel, ...] = each(made(_MeshPanel), "panel")
+    panels: tuple[_MeshPanel, ...] = several(made(_MeshPanel), lambda p: p.count, "panel")
 
     def build(self, t: Table) -> Model:
         w, h, xs = self.width, self.height, [k * self.width for k in range(self.count + 1)]
@@ -140,7 +140,7 @@ class WeldedMesh(Structure, name="fence/welded mesh", weight=1.2):
             solids += [box((w - 0.02, 0.006, 0.006), (x + w / 2, y - 0.005, z)) for z in levels]
             _whole(t, "fence", solids, panel.joined, "fence")
         for x in xs:
-            spread(t, "clamp", [box((0.05, 0.02, 0.03), (x, y, z)) for z in (0.25, h - 0.2)], of="trim")
+            t.add_each("clamp", [box((0.05, 0.02, 0.03), (x, y, z)) for z in (0.25, h - 0.2)], of="trim")
         return t.model()
 
 
@@ -172,7 +172,7 @@ class ChainLink(Structure, name="fence/chain link"):
         if self.barbed:
             lines = [(-0.12 * k, h + 0.1 + 0.1 * k) for k in (1, 2, 3)]
             own.add("fence", *(rod((0, y, z), (long, y, z), 0.003, 5) for y, z in lines))
-            spread(own, "post", [rod((x, 0, h + 0.06), (x, -0.37, h + 0.41), 0.018, 8) for x in xs], of="fence")
+            own.add_each("post", [rod((x, 0, h + 0.06), (x, -0.37, h + 0.41), 0.018, 8) for x in xs], of="fence")
         return t.model()
 
 
@@ -194,7 +194,7 @@ class Screen(Structure, name="fence/screen"):
         "of the screen",
         fixed=lambda p: {"count": p.count + 1, "shapes": _SCREEN_POSTS.get(p.fill, ("SHS", "H", "U"))},
     )
-    joined: tuple[bool, ...] = each(yes(0.65), "whether a bay is one mesh")
+    joined: tuple[bool, ...] = several(yes(0.65), lambda p: p.count, "whether a bay is one mesh")
 
     def build(self, t: Table) -> Model:
         w = self.width
@@ -231,13 +231,13 @@ class Guard(Structure, name="fence/guard", weight=1.2, grain="fitting"):
     count: int = whole(1, 4, "panels")
     height: float = between(1.2, 2.2, "of a panel's top", "m")
     low: float = between(0.1, 0.2, "height of a panel's underside", "m")
-    widths: tuple[float, ...] = each(number(0.5, 1.5), "of a panel", "m")
+    widths: tuple[float, ...] = several(number(0.5, 1.5), lambda p: p.count, "of a panel", "m")
     posts: Posts = Posts.of("SHS", "RHS")
     tube: str = among(("SHS", "L", "CHS"), "section of a panel's frame")
     fill: str = among(("mesh", "mesh", "sheet", "clear"), "of a panel")
     doored: bool = chance(0.5, "one of the panels is a door")
     door: int = among(lambda p: range(p.count), "which one, from 0", when=lambda p: p.doored, otherwise=-1)
-    joined: tuple[bool, ...] = each(yes(0.85), "whether a panel is one mesh")
+    joined: tuple[bool, ...] = several(yes(0.85), lambda p: p.count, "whether a panel is one mesh")
 
     def build(self, t: Table) -> Model:
         h, low, tube = self.height, self.low, section(self.tube, 0.025, t.style)
@@ -257,7 +257,7 @@ class Guard(Structure, name="fence/guard", weight=1.2, grain="fitting"):
             if k == self.door:
                 t.add("bracket", box((0.03, 0.06, 0.12), (b - 0.02, -0.04, 1.0)), of="handle")
                 hinge = cylinder(0.012, 0, 0.07, 8)
-                spread(t, "bracket", [moved(hinge, at(a, -0.03, z)) for z in (low + 0.2, h - 0.3)])
+                t.add_each("bracket", [moved(hinge, at(a, -0.03, z)) for z in (low + 0.2, h - 0.3)])
         return t.model()
 
 
@@ -266,8 +266,8 @@ class _Hurdle(Params):
 
     site: bool = given(False, "whether it stands in feet")
     joined: bool = chance(0.9, _JOINED)
-    feet: tuple[str, ...] = each(
-        one_of("base plate", "foundation"), "what a foot is called", count=2, when=lambda p: p.site
+    feet: tuple[str, ...] = several(
+        one_of("base plate", "foundation"), 2, "what a foot is called", when=lambda p: p.site
     )
 
 
@@ -279,7 +279,7 @@ class Movable(Structure, name="fence/movable", weight=0.8, grain="fitting"):
     width: float = between(lambda p: 2.0 if p.site else 1.5, lambda p: 3.0 if p.site else 2.3, "of a barrier", "m")
     height: float = between(1.8, 2.1, "of a panel", "m", when=lambda p: p.site, otherwise=1.1)
     radius: float = between(0.014, 0.021, "of its tubes", "m")
-    barriers: tuple[_Hurdle, ...] = each(made(_Hurdle, lambda p: {"site": p.site}), "barrier")
+    barriers: tuple[_Hurdle, ...] = several(made(_Hurdle, lambda p: {"site": p.site}), lambda p: p.count, "barrier")
 
     def build(self, t: Table) -> Model:
         site, w, h, r = self.site, self.width, self.height, self.radius
@@ -349,7 +349,7 @@ class Swing(Structure, name="gate/swing", weight=1.3, grain="fitting"):
     height: float = between(0.9, 2.2, "of a leaf's top", "m")
     low: float = between(0.04, 0.12, "height of a leaf's underside", "m")
     posts: Posts = nested(Posts, "of the gate", fixed=lambda _: {"shapes": ("SHS", "SHS", "H", "CHS")})
-    leaves: tuple[_Swung, ...] = each(made(_Swung), "leaf")
+    leaves: tuple[_Swung, ...] = several(made(_Swung), lambda p: p.count, "leaf")
 
     def build(self, t: Table) -> Model:
         w, h, low = self.width, self.height, self.low
@@ -396,7 +396,7 @@ class Sliding(Structure, name="gate/sliding", grain="fitting"):
             tail = bar((-0.3 * w, 0, low - 0.02), (w, 0, low - 0.02), section("RHS", 0.08, style))
             t.bundled("gate").add("gate", tail)
             tall = low - 0.06
-            spread(t, "foundation", [box((0.3, 0.16, tall), (x, 0, tall / 2)) for x in (-0.25 * w, 0.2)])
+            t.add_each("foundation", [box((0.3, 0.16, tall), (x, 0, tall / 2)) for x in (-0.25 * w, 0.2)])
         post = section("SHS", 0.08, style)
         for s in BOTH:
             t.add("post", bar((0.3, s * 0.14, 0), (0.3, s * 0.14, h + 0.12), post), of="fence")
@@ -474,7 +474,7 @@ class Turnstile(Structure, name="gate/turnstile", weight=0.7, grain="fitting"):
         _whole(t, "fence", [rod((x, y, 0), (x, y, h), 0.014, 8) for x, y in spots], self.caged, "fence")
         roof = [(-1.1 * r, -0.2), (1.1 * r, -0.2), (1.1 * r, 1.15 * r), (-1.1 * r, 1.15 * r)]
         t.add("plate", slab_xy(roof, h, h + 0.08), of="fence")
-        spread(t, "post", [box((0.08, 0.08, h), (s * 1.05 * r, -0.15, h / 2)) for s in BOTH], of="fence")
+        t.add_each("post", [box((0.08, 0.08, h), (s * 1.05 * r, -0.15, h / 2)) for s in BOTH], of="fence")
         return t.model()
 
 
@@ -498,7 +498,7 @@ class RailingGate(Structure, name="gate/railing", grain="fitting"):
             low = base.build(t.at(x), 0.1, 0.1)
             t.add("post", pipe([(x, 0, low), (x, 0, h)], r, style), of="safety")
         for a, b in (xs[:2], xs[2:]):
-            spread(t, "railing", [pipe([(a, 0, z), (b, 0, z)], r, style) for z in (0.5 * h, h)])
+            t.add_each("railing", [pipe([(a, 0, z), (b, 0, z)], r, style) for z in (0.5 * h, h)])
         bow = [(0.07, 0, h - 0.02), (w, 0, h - 0.02), (w, 0, 0.45 * h), (0.07, 0, 0.45 * h), (0.07, 0, h - 0.036)]
         solids = [pipe(bow, 0.016, style), pipe([(0.07, 0, 0.7 * h), (w, 0, 0.7 * h)], 0.012, style)]
         if self.sheeted:

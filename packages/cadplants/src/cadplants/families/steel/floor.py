@@ -9,7 +9,7 @@ import numpy as np
 from cadgraph.model.scene import Floats
 from cadplants.builder.device import families_of
 from cadplants.builder.draws import number, yes
-from cadplants.builder.params import among, between, chance, nested, whole
+from cadplants.builder.params import among, between, chance, nested, several, whole
 from cadplants.builder.table import Table
 from cadplants.families.steel.caster import Casters
 from cadplants.families.steel.shape import (
@@ -17,7 +17,6 @@ from cadplants.families.steel.shape import (
     Structure,
     bar,
     bases,
-    each,
     few_sides,
     grid,
     pipe,
@@ -28,7 +27,6 @@ from cadplants.families.steel.shape import (
     slab_xz,
     slab_yz,
     span_of,
-    spread,
 )
 from cadplants.family import Model
 from cadplants.mesh_ops import Solid, extrude, merge, moved
@@ -123,8 +121,12 @@ class Panels(Structure, name="grating/panels", weight=1.5, grain="fitting"):
     thick: float = among((0.025, 0.03, 0.04), "thickness of a panel", "m")
     stacked: bool = chance(0.3, "a stack on battens")
     count: int = among(lambda p: (2, 3, 4) if p.stacked else (1, 2, 3), "panels")
-    turns: tuple[float, ...] = each(
-        number(-0.03, 0.03), "how far a panel of the stack is turned", "rad", when=lambda p: p.stacked
+    turns: tuple[float, ...] = several(
+        number(-0.03, 0.03),
+        lambda p: p.count,
+        "how far a panel of the stack is turned",
+        "rad",
+        when=lambda p: p.stacked,
     )
     size: float = between(0.06, 0.12, "height of a bearer's section", "m", when=lambda p: not p.stacked)
     bearer: str = among(("L", "U", "SHS", "I", "T"), "section of the bearers", when=lambda p: not p.stacked)
@@ -134,7 +136,7 @@ class Panels(Structure, name="grating/panels", weight=1.5, grain="fitting"):
         w, d, thick, called = self.width, self.depth, self.thick, _called(self.form)
         solid = panel(self.form, w, d, thick, t.style, 12)
         if self.stacked:
-            spread(t, "beam", [box((0.08, d, 0.08), (s * 0.3 * w, 0, 0.04)) for s in BOTH], of="safety")
+            t.add_each("beam", [box((0.08, d, 0.08), (s * 0.3 * w, 0, 0.04)) for s in BOTH], of="safety")
             step = thick + (0.003 if self.form == "sheet" else 0.0)
             for k, a in enumerate(self.turns):
                 t.at(0, 0, 0.08 + k * step).spun("z", a).add(called, solid, of="clamp")
@@ -143,11 +145,11 @@ class Panels(Structure, name="grating/panels", weight=1.5, grain="fitting"):
         _x0, _x1, low, high = span_of(one)
         for k in range(self.count):
             t.at((k + 0.5) * pitch, 0, high - low).add(called, solid, of="clamp")
-        spread(t, "beam", [bar((0, y, -low), (self.count * pitch, y, -low), one) for y in ys])
+        t.add_each("beam", [bar((0, y, -low), (self.count * pitch, y, -low), one) for y in ys])
         if self.clipped and self.form in ("bar", "pressed"):
             clip = box((0.05, 0.02, 0.003), (0, 0, high - low + thick + 0.0015))
             xs = [(k + f) * pitch for k in range(self.count) for f in (0.15, 0.85)]
-            spread(t, "clamp", [moved(clip, at(x, y)) for x in xs for y in ys], of="trim")
+            t.add_each("clamp", [moved(clip, at(x, y)) for x in xs for y in ys], of="trim")
         return t.model()
 
 
@@ -201,9 +203,9 @@ class Trench(Structure, name="grating/trench", grain="fitting"):
 def _bow(t: Table, xs: tuple[float, float]) -> None:
     """A railing along x over a floor on z = 0: two posts, a handrail and a knee rail."""
     own, style = t.bundled("platform"), t.style
-    spread(own, "post", [pipe([(x, 0, 0), (x, 0, 1.05)], 0.019, style) for x in xs], of="safety")
+    own.add_each("post", [pipe([(x, 0, 0), (x, 0, 1.05)], 0.019, style) for x in xs], of="safety")
     rails = ((1.05, 0.021), (0.55, 0.015))
-    spread(own, "railing", [pipe([(xs[0], 0, h), (xs[1], 0, h)], r, style) for h, r in rails])
+    own.add_each("railing", [pipe([(xs[0], 0, h), (xs[1], 0, h)], r, style) for h, r in rails])
 
 
 def _sectors(p: Any) -> bool:
@@ -233,7 +235,7 @@ class Round(Structure, name="platform/ring", weight=1.2):
             a = np.linspace(0.003, step - 0.003, 5)
             unit = np.column_stack([np.cos(a), np.sin(a)])
             sector = extrude(np.vstack([(r + 0.01) * unit[::-1], (r + w) * unit]), h - 0.03, h)
-            spread(own, self.called, [moved(sector, spun("z", k * step)) for k in range(count)], of="clamp")
+            own.add_each(self.called, [moved(sector, spun("z", k * step)) for k in range(count)], of="clamp")
         else:
             own.add("platform", ring(r + 0.005, r + w, h - 0.03, h, n))
         shape = [(r - 0.02, h - 0.03), (r - 0.02, h - 0.35), (r + 0.05, h - 0.35), (r + w, h - 0.1), (r + w, h - 0.03)]
@@ -283,7 +285,7 @@ class SolidPlatform(Structure, name="platform/solid", weight=1.3):
         solids = [box((w, d, deep), (0, 0, h - deep / 2))] if self.form == "slab" else solids
         t.bundled("platform").add("platform", *solids, of=self.material)
         if self.foot == "blocks" or low < 0.15:
-            spread(t, "foundation", [box((0.2, d, low), (s * 0.35 * w, 0, low / 2)) for s in BOTH])
+            t.add_each("foundation", [box((0.2, d, low), (s * 0.35 * w, 0, low / 2)) for s in BOTH])
         elif self.foot == "legs":
             one = section(self.leg, 0.07, t.style)
             for (sx, sy), base in zip(CORNERS, self.bases, strict=True):
@@ -292,7 +294,7 @@ class SolidPlatform(Structure, name="platform/solid", weight=1.3):
         else:
             t.add("wall", box((w + 0.4, 0.2, h + 0.8), (0, d / 2 + 0.1, (h + 0.8) / 2)))
             shape = [(d / 2, low), (-d / 2 + 0.1, low), (-d / 2 + 0.1, low - 0.04), (d / 2, low - min(0.5, 0.8 * low))]
-            spread(t, "bracket", [moved(slab_yz(shape, 0.012), at(s * 0.35 * w)) for s in BOTH])
+            t.add_each("bracket", [moved(slab_yz(shape, 0.012), at(s * 0.35 * w)) for s in BOTH])
         if self.railed:
             _bow(t.at(0, -d / 2 + 0.05, h), (-w / 2 + 0.05, w / 2 - 0.05))
         return t.model()
@@ -334,10 +336,10 @@ class Mezzanine(Structure, name="platform/mezzanine", grain="fitting"):
             low = base.build(t.at(x, y), 0.3, 0.3)
             t.add("column", bar((x, y, low), (x, y, h), column))
         (_, _, g0, g1), (_, _, j0, j1) = span_of(girder), span_of(joist)
-        spread(t, "beam", [bar((-0.15, y, h - g0), (w + 0.15, y, h - g0), girder) for y in ys])
+        t.add_each("beam", [bar((-0.15, y, h - g0), (w + 0.15, y, h - g0), girder) for y in ys])
         z, floor = h + g1 - g0 - j0, h + g1 - g0 + j1 - j0
         joists = [bar((x, -0.1, z), (x, d + 0.1, z), joist) for x in np.linspace(0, w, self.joists)]
-        spread(t, "beam", joists, of="clamp")
+        t.add_each("beam", joists, of="clamp")
         if self.plain:
             t.add("platform", box((w + 0.3, d + 0.2, 0.03), (w / 2, d / 2, floor + 0.015)), of="ground")
         else:
@@ -348,7 +350,7 @@ class Mezzanine(Structure, name="platform/mezzanine", grain="fitting"):
         _bow(t.at(0, -0.05, floor + 0.03), (0.0, w))
         if self.braced:
             knee = section(self.knee, 0.06, t.style)
-            spread(t, "brace", [bar((0, y, h - 0.6), (0.6, y, h), knee) for y in ys])
+            t.add_each("brace", [bar((0, y, h - 0.6), (0.6, y, h), knee) for y in ys])
         return t.model()
 
 
@@ -361,7 +363,7 @@ class Scaffold(Structure, name="platform/scaffold", weight=0.8, grain="fitting")
     radius: float = between(0.06, 0.09, "of a caster's wheel", "m")
     wheeled: bool = chance(0.7, "on casters")
     casters: Casters = nested(Casters.of("stem"), "casters", when=lambda p: p.wheeled)
-    joined: tuple[bool, ...] = each(yes(0.5), "whether the rungs of a frame are one mesh", count=2)
+    joined: tuple[bool, ...] = several(yes(0.5), 2, "whether the rungs of a frame are one mesh")
 
     def build(self, t: Table) -> Model:
         a, b, h, low, style = self.length, self.width, self.height, 0.012, t.style
@@ -369,16 +371,16 @@ class Scaffold(Structure, name="platform/scaffold", weight=0.8, grain="fitting")
         if self.wheeled:
             low = self.casters.build(t, spots, self.radius)
         else:
-            spread(t, "base plate", [box((0.15, 0.15, 0.012), (x, y, 0.006)) for x, y in spots])
+            t.add_each("base plate", [box((0.15, 0.15, 0.012), (x, y, 0.006)) for x, y in spots])
         for x, joined in zip((0.0, a), self.joined, strict=True):
             posts = [pipe([(x, y, low), (x, y, h + 1.0)], 0.024, style, 0, 0.003) for y in (0.0, b)]
-            spread(t, "column", posts, of="clamp")
+            t.add_each("column", posts, of="clamp")
             rungs = [pipe([(x, 0, z), (x, b, z)], 0.019, style) for z in np.arange(low + 0.3, h + 1.0, 0.5)]
-            spread(t, "ladder", rungs, of="clamp", joined=joined)
+            t.add_each("ladder", rungs, of="clamp", joined=joined)
         for y, (z0, z1) in ((-0.03, (low + 0.2, h - 0.2)), (b + 0.03, (h - 0.2, low + 0.2))):
             t.add("brace", pipe([(0, y, z0), (a, y, z1)], 0.017, style), of="clamp")
             rails = [pipe([(0, y, h + z), (a, y, h + z)], 0.017, style) for z in (0.5, 0.98)]
-            spread(t, "railing", rails, of="clamp")
+            t.add_each("railing", rails, of="clamp")
         t.add("platform", box((a, b - 0.05, 0.05), (a / 2, b / 2, h)), of="safety")
         return t.model()
 

@@ -6,15 +6,13 @@ import numpy as np
 
 from cadplants.builder.device import families_of
 from cadplants.builder.draws import made, number, of_form, yes
-from cadplants.builder.params import Params, among, between, chance, nested, whole
+from cadplants.builder.params import Params, among, between, chance, nested, several, whole
 from cadplants.builder.table import Table
 from cadplants.families.steel.shape import (
     Section,
     Structure,
-    each,
     grid,
     rect,
-    spread,
 )
 from cadplants.family import Model
 from cadplants.mesh_ops import Solid, extrude, merge, moved, sweep
@@ -66,7 +64,7 @@ class Bay(Structure, name="frame/bay", weight=2, grain="fitting"):
     column: Profile = nested(Profile, "of the columns")
     beam: Profile = nested(Profile, "of the beams")
     thin: Profile = nested(Profile, "of purlins and braces")
-    feet: tuple[_Foot, ...] = each(made(_Foot), "what is under the columns", count=4)
+    feet: tuple[_Foot, ...] = several(made(_Foot), 4, "what is under the columns")
     purlins: int = whole(2, 4, "on the beams")
     braces: str = among(("crossed", "single", "knee"), "how it is braced")
     floored: bool = chance(0.4, "a floor on it")
@@ -88,7 +86,7 @@ class Bay(Structure, name="frame/bay", weight=2, grain="fitting"):
             if foot.footed:
                 t.add("foundation", box((side + 0.15, side + 0.15, 0.2), (x, y, -0.1)))
         level = h + float(np.ptp(across[0][:, 1])) / 2
-        spread(t, "beam", [bar((0, y, level), (w, y, level), *across) for y in (0.0, d)])
+        t.add_each("beam", [bar((0, y, level), (w, y, level), *across) for y in (0.0, d)])
         deep, level = float(np.ptp(thin[:, 1])), 2 * level - h
         for x in np.linspace(0, w, self.purlins):
             t.add("beam", bar((x, 0, level + deep / 2), (x, d, level + deep / 2), thin, thin_hole))
@@ -127,7 +125,7 @@ class Caged(Structure, name="ladder/cage", weight=1.5):
         for x in (-wide / 2, wide / 2):
             own.add("ladder", box((0.012, 0.06, h), (x, 0, h / 2)) if self.flat else rod((x, 0, 0), (x, 0, h), 0.02, n))
         levels = np.arange(self.pitch, h - 0.02, self.pitch)
-        spread(own, "ladder", [rod((-wide / 2, 0, z), (wide / 2, 0, z), 0.011, n) for z in levels])
+        own.add_each("ladder", [rod((-wide / 2, 0, z), (wide / 2, 0, z), 0.011, n) for z in levels])
         if self.caged:
             a = np.linspace(-0.35, np.pi + 0.35, 13)
             hoop = np.column_stack([0.38 * np.cos(a), -0.36 - 0.36 * np.sin(a), np.zeros(13)])
@@ -138,7 +136,7 @@ class Caged(Structure, name="ladder/cage", weight=1.5):
             for x, y, _ in hoop[[1, 4, 7, 10, 13]]:
                 own.add("ladder", box((0.03, 0.005, h - 2.2), (x, y, (h + 2.2) / 2)))
         for z in (0.4, h - 0.4):
-            spread(t, "bracket", [box((0.01, 0.2, 0.05), (s * wide / 2, 0.12, z)) for s in BOTH])
+            t.add_each("bracket", [box((0.01, 0.2, 0.05), (s * wide / 2, 0.12, z)) for s in BOTH])
         return t.model()
 
 
@@ -204,9 +202,9 @@ class Rails(Params):
         if self.toe:
             own.add("railing", box((length, 0.005, 0.1), (length / 2, 0.025, 0.06)))
         if self.balls:
-            spread(own, "railing", [moved(ball(0.03, 10), at(x, 0, h)) for x in xs])
+            own.add_each("railing", [moved(ball(0.03, 10), at(x, 0, h)) for x in xs])
         if self.plated:
-            spread(t, "base plate", [box((0.08, 0.08, 0.01), (x, 0, 0.005)) for x in xs])
+            t.add_each("base plate", [box((0.08, 0.08, 0.01), (x, 0, 0.005)) for x in xs])
 
 
 class Tubular(Structure, name="railing/tubular", grain="fitting"):
@@ -263,7 +261,7 @@ class Flight(Structure, name="stairs/flight", weight=1.5, grain="fitting"):
         run, height = go * self.count, self.rise * self.count
         outline = rounded_rectangle(0.01, 0.2, 0.0) if self.flat else section_channel(0.18, 0.05, 0.006, 0.008)
         sides = [s * wide / 2 for s in BOTH]
-        spread(t, "beam", [bar((0, y, 0.0), (run, y, height), outline, ()) for y in sides])
+        t.add_each("beam", [bar((0, y, 0.0), (run, y, height), outline, ()) for y in sides])
         tread = self.tread.solids(go, wide)
         for k in range(self.count):
             t.at((k + 0.5) * go, 0, (k + 1) * self.rise - 0.04).add("stair tread", *tread)
@@ -271,7 +269,7 @@ class Flight(Structure, name="stairs/flight", weight=1.5, grain="fitting"):
         for y in sides if self.railed else ():
             own.add("railing", rod((0, y, 0.95), (run, y, height + 0.95), 0.02, n))
             feet = [(f * run, y, f * height) for f in (0.05, 0.5, 0.95)]
-            spread(own, "post", [rod((x, y, z), (x, y, z + 0.95), 0.02, n) for x, y, z in feet], of="safety")
+            own.add_each("post", [rod((x, y, z), (x, y, z + 0.95), 0.02, n) for x, y, z in feet], of="safety")
         return t.model()
 
 
@@ -285,7 +283,7 @@ class Platform(Structure, name="platform/bay", weight=2.5):
     edge: Profile = nested(Profile, "of the beams")
     count: int = whole(1, 3, "panels, if it has such")
     plain: bool = chance(0.3, "its floor is one plate")
-    panels: tuple[Panel, ...] = each(made(Panel), "of the floor", when=lambda p: not p.plain)
+    panels: tuple[Panel, ...] = several(made(Panel), lambda p: p.count, "of the floor", when=lambda p: not p.plain)
     back: Rails = nested(Rails, "railing along x", when=lambda p: p.height > 0.5)
     sided: bool = chance(0.6, "a railing along y", when=lambda p: p.height > 0.5)
     side: Rails = nested(Rails, "that railing", when=lambda p: p.sided)
@@ -296,9 +294,9 @@ class Platform(Structure, name="platform/bay", weight=2.5):
         ys = edge[0][:, 1]
         deep, z = float(np.ptp(ys)), h - float(np.ptp(ys)) / 2 - float(ys.max() + ys.min()) / 2
         corners = [(sx * w / 2, sy * d / 2) for sx, sy in CORNERS]
-        spread(t, "column", [bar((x, y, 0.0), (x, y, h - deep), *up) for x, y in corners])
-        spread(t, "beam", [bar((-w / 2, s * d / 2, z), (w / 2, s * d / 2, z), *edge) for s in BOTH])
-        spread(t, "beam", [bar((s * w / 2, -d / 2, z), (s * w / 2, d / 2, z), *edge) for s in BOTH])
+        t.add_each("column", [bar((x, y, 0.0), (x, y, h - deep), *up) for x, y in corners])
+        t.add_each("beam", [bar((-w / 2, s * d / 2, z), (w / 2, s * d / 2, z), *edge) for s in BOTH])
+        t.add_each("beam", [bar((s * w / 2, -d / 2, z), (s * w / 2, d / 2, z), *edge) for s in BOTH])
         if self.plain:
             t.add("platform", box((w, d, 0.012), (0, 0, h + 0.006)))
         for k, panel in enumerate(self.panels):
@@ -322,8 +320,8 @@ class Grating(Structure, name="grating/panel", grain="fitting"):
         w, d = self.width, self.depth
         self.panel.build(t.at(0, 0, 0.1), w, d, self.thick)
         angle = section_angle(0.05, 0.005)
-        spread(t, "beam", [bar((-w / 2, s * d / 2, 0.07), (w / 2, s * d / 2, 0.07), angle, ()) for s in BOTH])
-        spread(t, "post", [box((0.05, 0.05, 0.07), (sx * w / 2, sy * d / 2, 0.035)) for sx, sy in CORNERS])
+        t.add_each("beam", [bar((-w / 2, s * d / 2, 0.07), (w / 2, s * d / 2, 0.07), angle, ()) for s in BOTH])
+        t.add_each("post", [box((0.05, 0.05, 0.07), (sx * w / 2, sy * d / 2, 0.035)) for sx, sy in CORNERS])
         return t.model()
 
 
@@ -332,7 +330,7 @@ class Fence(Structure, name="fence/panel", weight=1.5, grain="fitting"):
 
     length: float = between(1.5, 2.6, "of the panel", "m")
     height: float = between(1.0, 2.2, "of the panel", "m")
-    rounds: tuple[bool, ...] = each(yes(0.5), "whether a post is round, not flat", count=2)
+    rounds: tuple[bool, ...] = several(yes(0.5), 2, "whether a post is round, not flat")
     fill: str = among(("wires", "planks", "sheet"), "of the panel")
     gated: bool = chance(0.6, "a gate leaf beside it")
     strut: bool = chance(0.5, "one diagonal in the leaf, not bars", when=lambda p: p.gated)
@@ -412,17 +410,17 @@ class Wheeled(Structure, name="skid frame/wheeled", weight=3, grain="fitting"):
     ties: int = whole(3, 5, "cross members")
     decked: bool = chance(0.5, "a plate on it")
     loose: bool = chance(0.5, "that plate is a part of its own kind, not of the frame", when=lambda p: p.decked)
-    turns: tuple[float, ...] = each(number(0, 6), "which way a caster points", "rad", count=4, when=lambda p: p.wheeled)
+    turns: tuple[float, ...] = several(number(0, 6), 4, "which way a caster points", "rad", when=lambda p: p.wheeled)
 
     def build(self, t: Table) -> Model:
         w, d, r, own = self.length, self.width, self.radius, t.bundled("skid frame")
         outline, holes = self.profile.section(t.style, 0.16)
         low = 2.6 * r if self.wheeled else 0.0
         z, top = low - float(outline[:, 1].min()), low + float(np.ptp(outline[:, 1]))
-        spread(own, "skid frame", [bar((-w / 2, s * d / 2, z), (w / 2, s * d / 2, z), outline, holes) for s in BOTH])
+        own.add_each("skid frame", [bar((-w / 2, s * d / 2, z), (w / 2, s * d / 2, z), outline, holes) for s in BOTH])
         tie = 0.95 * outline, tuple(0.95 * hole for hole in holes)
         xs = np.linspace(-w / 2 + 0.05, w / 2 - 0.05, self.ties)
-        spread(own, "skid frame", [bar((x, -d / 2, z), (x, d / 2, z), *tie) for x in xs])
+        own.add_each("skid frame", [bar((x, -d / 2, z), (x, d / 2, z), *tie) for x in xs])
         if self.decked:
             t.add("plate" if self.loose else "skid frame", box((w, d, 0.006), (0, 0, top + 0.003)))
         for (sx, sy), turn in zip(CORNERS, self.turns, strict=False):
@@ -470,7 +468,7 @@ class Stock(Structure, name="profile/stock", weight=1.5, grain="fitting"):
     """Sections of any length lying and standing, plates with holes and without."""
 
     count: int = whole(3, 6, "sections")
-    pieces: tuple[_Piece, ...] = each(made(_Piece), "section")
+    pieces: tuple[_Piece, ...] = several(made(_Piece), lambda p: p.count, "section")
 
     def build(self, t: Table) -> Model:
         for k, one in enumerate(self.pieces):

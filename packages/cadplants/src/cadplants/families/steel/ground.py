@@ -7,16 +7,14 @@ import numpy as np
 from cadgraph.model.scene import Floats
 from cadplants.builder.device import families_of
 from cadplants.builder.draws import of_form, one_of
-from cadplants.builder.params import among, between, chance, whole
+from cadplants.builder.params import among, between, chance, several, whole
 from cadplants.builder.table import Table
 from cadplants.families.steel.shape import (
     Structure,
-    each,
     few_sides,
     rect,
     slab_xy,
     slab_xz,
-    spread,
 )
 from cadplants.family import Model
 from cadplants.mesh_ops import Solid
@@ -35,8 +33,8 @@ class Slabs(Structure, name="ground/slabs", weight=1.3, grain="fitting"):
     form: str = among(("fields", "paving", "gutter", "ramp", "holes"), "what it is")
     fields_along: int = whole(1, 3, "fields along x", when=of_form("fields"))
     fields_across: int = whole(1, 3, "fields along y", when=of_form("fields"))
-    materials: tuple[str, ...] = each(
-        one_of("ground", "concrete"), "kind of material of a field", count=lambda p: p.fields_along * p.fields_across
+    materials: tuple[str, ...] = several(
+        one_of("ground", "concrete"), lambda p: p.fields_along * p.fields_across, "kind of material of a field"
     )
     holed: bool = chance(0.6, "with holes", when=of_form("holes"))
     footed: bool = chance(0.4, "a foundation on it, if of fields or with a ramp")
@@ -89,10 +87,10 @@ class Relief(Structure, name="ground/relief", grain="fitting"):
     post: bool = chance(0.5, "a post on the round pad", when=of_form("pad"))
     points: int = whole(5, 11, "points of the patch each way", when=of_form("patch"))
     rough: float = between(0.02, 0.12, "standard deviation of the patch's heights", "m", when=of_form("patch"))
-    heights: tuple[float, ...] = each(
+    heights: tuple[float, ...] = several(
         lambda rng, _: float(rng.standard_normal()),
+        lambda p: p.points**2,
         "of a point / the standard deviation",
-        count=lambda p: p.points**2,
         when=of_form("patch"),
     )
 
@@ -103,7 +101,7 @@ class Relief(Structure, name="ground/relief", grain="fitting"):
             k = self.kerb
             kerbs = [box((a + 2 * k, k, 0.25), (0, s * (b / 2 + k / 2), -0.05)) for s in BOTH]
             kerbs += [box((k, b, 0.25), (s * (a / 2 + k / 2), 0, -0.05)) for s in BOTH]
-            spread(t, "foundation", kerbs)
+            t.add_each("foundation", kerbs)
         elif self.form == "pad":
             r = a / 2
             t.add("ground", turned([(r, -0.1), (r, 0.0), (0.9 * r, self.rise)], few_sides(t.style, r, 40)))

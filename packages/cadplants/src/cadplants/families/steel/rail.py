@@ -7,7 +7,7 @@ import numpy as np
 from cadgraph.model.scene import Floats
 from cadplants.builder.device import families_of
 from cadplants.builder.draws import made, of_form, one_of
-from cadplants.builder.params import Params, among, between, chance, nested, whole
+from cadplants.builder.params import Params, among, between, chance, nested, several, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.steel.shape import (
     Base,
@@ -15,7 +15,6 @@ from cadplants.families.steel.shape import (
     bar,
     bases,
     bolts,
-    each,
     few_sides,
     pipe,
     ribbon,
@@ -23,7 +22,6 @@ from cadplants.families.steel.shape import (
     slab_xy,
     slab_xz,
     span_of,
-    spread,
 )
 from cadplants.family import Model
 from cadplants.mesh_ops import Solid, merge, moved, sweep
@@ -89,7 +87,7 @@ class BentBays(Structure, name="railing/bent bays", weight=1.2):
             solids = [pipe([(a, 0, low), (a, 0, h), (b, 0, h), (b, 0, low)], r, style, self.bend, 0.003)]
             levels = [h * (j + 1) / (self.rails + 1) for j in range(self.rails)]
             solids += [pipe([(a + r, 0, z), (b - r, 0, z)], 0.8 * r, style) for z in levels]
-            spread(up.bundled("railing"), "railing", solids, joined=self.joined)
+            up.bundled("railing").add_each("railing", solids, joined=self.joined)
         self.kick.build(up, self.count * w)
         return t.model()
 
@@ -102,12 +100,12 @@ class SideFixed(Structure, name="railing/side fixed"):
     edge_size: float = between(0.14, 0.24, "height of the edge beam's section", "m")
     edge: str = among(("U", "RHS", "U", "H"), "section of the edge beam")
     lift: float = between(0.0, 1.0, "height of the edge beam over 0.15 m", "m")
-    feet: tuple[str, ...] = each(one_of("column", "foundation"), "what the edge beam stands on", count=2)
+    feet: tuple[str, ...] = several(one_of("column", "foundation"), 2, "what the edge beam stands on")
     post: str = among(("flat", "L", "SHS", "CHS", "U"), "section of the posts")
     rail: str = among(("CHS", "SHS", "L", "flat"), "section of the rails")
     rails: int = whole(3, 4, "levels with the edge beam's")
-    behind: tuple[float, ...] = each(
-        one_of(0.03, 0.0), "how far a lower rail is behind the posts' axis", "m", count=lambda p: p.rails - 2
+    behind: tuple[float, ...] = several(
+        one_of(0.03, 0.0), lambda p: p.rails - 2, "how far a lower rail is behind the posts' axis", "m"
     )
     kicked: bool = chance(0.6, "a toe plate")
 
@@ -186,9 +184,9 @@ class Infill(Structure, name="railing/infill", weight=1.5):
             solids = [bar((0, 0, 0), (wide, 0, 0), section("SHS", 0.03, style)), *solids]
         for k in range(self.count):
             a = k * w + half
-            spread(own.at(a, 0, 0.1), "railing", solids, of="dial" if glass else "safety", joined=self.joined)
+            own.at(a, 0, 0.1).add_each("railing", solids, of="dial" if glass else "safety", joined=self.joined)
             spots = [(x, f) for x in (a + 0.01, a + wide - 0.01) for f in (0.3, 0.8) if glass]
-            spread(up, "clamp", [box((0.05, 0.03, 0.04), (x, 0, f * h)) for x, f in spots], of="steel")
+            up.add_each("clamp", [box((0.05, 0.03, 0.04), (x, 0, f * h)) for x, f in spots], of="steel")
         return t.model()
 
 
@@ -275,7 +273,7 @@ class Curved(Structure, name="railing/curved"):
 
         own.add("railing", pipe(round_at(h, bend), r, t.style, 0.0, 0.003))
         levels = np.linspace(0, h, self.rails)[1:-1]
-        spread(own, "railing", [pipe(round_at(float(z), bend), 0.75 * r, t.style) for z in levels])
+        own.add_each("railing", [pipe(round_at(float(z), bend), 0.75 * r, t.style) for z in levels])
         n, one = few_sides(t.style, r, 14), section(self.post, 2 * r, t.style)
         for angle in np.linspace(0, self.turn, max(3, int(bend * self.turn / 1.0) + 1)):
             x, y = bend * np.cos(angle), bend * np.sin(angle)
@@ -315,7 +313,7 @@ class Clamped(Structure, name="railing/clamped tubes", weight=0.8, grain="fittin
             t.add("railing", *posts, *rails, of="clamp")
         else:
             for name, solids in (("post", posts), ("railing", rails)):
-                spread(t.bundled("railing"), name, solids, of="clamp")
+                t.bundled("railing").add_each(name, solids, of="clamp")
         return t.model()
 
 
@@ -368,7 +366,7 @@ class Barrier(Structure, name="railing/barrier", grain="fitting"):
         "of hoops or posts",
         "m",
     )
-    hoops: tuple[_Hoop, ...] = each(made(_Hoop), "hoop", when=of_form("hoops"))
+    hoops: tuple[_Hoop, ...] = several(made(_Hoop), lambda p: p.count, "hoop", when=of_form("hoops"))
     size: float = between(0.08, 0.14, "height of a post's section", "m", when=lambda p: p.form != "hoops")
     post: str = among(("U", "H", "SHS", "C"), "section of the posts", when=lambda p: p.form != "hoops")
     bases: tuple[Base, ...] = bases(lambda p: p.count + 1, when=lambda p: p.form != "hoops")
@@ -406,7 +404,7 @@ class Barrier(Structure, name="railing/barrier", grain="fitting"):
         plank = section(self.plank, self.plank_size, t.style)
         y = face - float(plank[0][:, 0].max())
         levels = np.linspace(0.2, h - 0.1, self.planks)
-        spread(t, "railing", [bar((-0.1, y, z), (length + 0.1, y, z), plank) for z in levels])
+        t.add_each("railing", [bar((-0.1, y, z), (length + 0.1, y, z), plank) for z in levels])
 
 
 class Bollards(Structure, name="post/bollard", weight=0.8, grain="fitting"):
@@ -478,7 +476,7 @@ class Stands(Structure, name="post/stand", weight=1.2, grain="fitting"):
     """Lone posts of any section on plates, in sockets or on the side of a plinth, with caps, arms or a small panel."""
 
     count: int = whole(1, 3, "posts")
-    posts: tuple[_Stand, ...] = each(made(_Stand), "post")
+    posts: tuple[_Stand, ...] = several(made(_Stand), lambda p: p.count, "post")
 
     def build(self, t: Table) -> Model:
         for k, one in enumerate(self.posts):

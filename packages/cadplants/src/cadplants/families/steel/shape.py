@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from typing import Any, TypeVar
 
 import numpy as np
@@ -28,7 +28,6 @@ __all__ = [
     "bar",
     "bases",
     "bolts",
-    "each",
     "few_sides",
     "filleted",
     "flat",
@@ -43,7 +42,6 @@ __all__ = [
     "slab_xz",
     "slab_yz",
     "span_of",
-    "spread",
 ]
 
 GROUP = "Structural element"
@@ -59,24 +57,6 @@ class Structure(Device, place="floor", group=GROUP, sizes=(15,), grain="structur
 
     def __init_subclass__(cls, **said: Any) -> None:
         super().__init_subclass__(**{"label": said.get("name", "").split("/")[0], **said})
-
-
-def each(
-    draw: Callable[[Rng, Any], T],
-    about: str,
-    unit: str = "",
-    *,
-    count: int | Count = lambda p: int(p.count),
-    when: Callable[[Any], bool] | None = None,
-) -> tuple[T, ...]:
-    """What is drawn for each of several things, of which there are as many as the field ``count`` says."""
-    return several(draw, count if callable(count) else lambda _: count, about, unit, when=when)
-
-
-def spread(t: Table, name: str, solids: Iterable[Solid], of: str = "", joined: bool = False, **more: Any) -> None:
-    """Puts solids down each as a part, or joined as one."""
-    for some in [list(solids)] if joined else [[one] for one in solids]:
-        t.add(name, *some, of=of, **more)
 
 
 def few_sides(style: ModelingStyle, radius: float, most: int = 20) -> int:
@@ -260,7 +240,7 @@ def bolts(t: Table, poses: Sequence[Floats], d: float, grip: float = 0.02, throu
                 t.add(name, moved(one, pose), own=False)
         return
     whole_ = merge([one for one, _ in kinds])
-    spread(t, "bolt", [moved(whole_, pose) for pose in poses], joined=t.style.fasteners == "set", own=False)
+    t.add_each("bolt", [moved(whole_, pose) for pose in poses], joined=t.style.fasteners == "set", own=False)
 
 
 class Base(Params):
@@ -294,7 +274,7 @@ class Base(Params):
 
 def bases(count: int | Count, when: Callable[[Any], bool] | None = None) -> tuple[Base, ...]:
     """Base plates of this many columns."""
-    return each(made(Base), "base plates", count=count, when=when)
+    return several(made(Base), count, "base plates", when=when)
 
 
 class Props(Params):
@@ -310,8 +290,8 @@ class Props(Params):
         when=lambda p: p.form != "battens",
     )
     leg: str = among(("L", "SHS", "CHS"), "section of a trestle's legs", when=of_form("trestles"))
-    heads: tuple[str, ...] = each(
-        one_of("SHS", "U", "H"), "sections of the trestles' heads", count=2, when=of_form("trestles")
+    heads: tuple[str, ...] = several(
+        one_of("SHS", "U", "H"), 2, "sections of the trestles' heads", when=of_form("trestles")
     )
     shaft: str = among(ROLLED, "section of the columns", when=of_form("columns"))
     feet: tuple[Base, ...] = bases(2, when=of_form("columns"))

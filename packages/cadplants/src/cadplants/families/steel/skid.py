@@ -8,14 +8,13 @@ import numpy as np
 
 from cadplants.builder.device import families_of
 from cadplants.builder.draws import number, of_form
-from cadplants.builder.params import Params, Source, among, between, chance, given, nested, whole
+from cadplants.builder.params import Params, Source, among, between, chance, given, nested, several, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.steel.shape import (
     Section,
     Structure,
     bar,
     bolts,
-    each,
     few_sides,
     grid,
     lug,
@@ -27,7 +26,6 @@ from cadplants.families.steel.shape import (
     slab_xz,
     slab_yz,
     span_of,
-    spread,
 )
 from cadplants.family import Model
 from cadplants.mesh_ops import Solid, moved
@@ -57,7 +55,7 @@ class Deck(Params):
     """What lies on a frame: nothing, a plate, a plate with openings, a grating, a chequered plate."""
 
     form: str = among(("bare", "plate", "openings", "grating", "plate"), "what it is")
-    radii: tuple[float, ...] = each(number(0.03, 0.08), "of an opening", "m", count=2, when=of_form("openings"))
+    radii: tuple[float, ...] = several(number(0.03, 0.08), 2, "of an opening", "m", when=of_form("openings"))
     called: str = among(
         ("plate", _SKID), "what a plate is called", when=lambda p: p.form in ("plate", "openings"), otherwise=""
     )
@@ -125,17 +123,17 @@ class Payload(Params):
         _x0, _x1, y0, y1 = span_of(one)
         if self.form == "panel stand":
             x = 0.35 * a
-            spread(t, "post", [bar((x, s * 0.3 * b, 0), (x, s * 0.3 * b, h), one) for s in BOTH])
+            t.add_each("post", [bar((x, s * 0.3 * b, 0), (x, s * 0.3 * b, h), one) for s in BOTH])
             t.add("plate", box((0.004, 0.7 * b, 0.5 * h), (x - y0 + 0.002, 0, 0.7 * h)), of="clamp")
         elif self.form == "frame":
             x, y, level = 0.44 * a, 0.42 * b, h + y1
-            spread(t, "column", [bar((sx * x, sy * y, 0), (sx * x, sy * y, h), one) for sx, sy in CORNERS])
-            spread(t, "beam", [bar((-x, s * y, level), (x, s * y, level), one) for s in BOTH])
-            spread(t, "beam", [bar((s * x, -y, level), (s * x, y, level), one) for s in BOTH])
+            t.add_each("column", [bar((sx * x, sy * y, 0), (sx * x, sy * y, h), one) for sx, sy in CORNERS])
+            t.add_each("beam", [bar((-x, s * y, level), (x, s * y, level), one) for s in BOTH])
+            t.add_each("beam", [bar((s * x, -y, level), (s * x, y, level), one) for s in BOTH])
             thin = section("L", 0.04, t.style)
-            spread(t, "brace", [bar((-x, s * y, 0), (x, s * y, h), thin) for s in BOTH if self.braced])
+            t.add_each("brace", [bar((-x, s * y, 0), (x, s * y, h), thin) for s in BOTH if self.braced])
         elif self.form == "plinths":
-            spread(t, "beam", [bar((s * 0.2 * a, -0.5 * b, -y0), (s * 0.2 * a, 0.5 * b, -y0), one) for s in BOTH])
+            t.add_each("beam", [bar((s * 0.2 * a, -0.5 * b, -y0), (s * 0.2 * a, 0.5 * b, -y0), one) for s in BOTH])
         else:
             path = [(s * 0.4 * a, -0.45 * b, z) for s, z in ((-1, 0), (-1, h), (1, h), (1, 0))]
             t.add("railing", pipe(path, 0.021, t.style, 0.12))
@@ -163,7 +161,7 @@ class Welded(Structure, name="skid frame/welded", weight=2.0):
             toe = slab_xz([(0, 0.0), (0.25, 0.6 * top), (0.25, top), (0, top)], 0.06)
             poses = [at(sx * a / 2, sy * b / 2) @ spun("z", 0 if sx > 0 else np.pi) for sx, sy in CORNERS]
             solids += [moved(toe, pose) for pose in poses]
-        spread(t.bundled(_SKID), _SKID, solids, joined=self.joined)
+        t.bundled(_SKID).add_each(_SKID, solids, joined=self.joined)
         up = t.at(0, 0, top)
         deck = self.deck.build(up, a, b)
         self.lugs.build(up, a, b)
@@ -171,7 +169,7 @@ class Welded(Structure, name="skid frame/welded", weight=2.0):
         if self.bolted:
             x, y = a / 2 - 0.08, b / 2 + 0.06 - span_of(one)[0]
             spots = [at(sx * x, sy * y, 0.012) for sx, sy in CORNERS]
-            spread(t, "base plate", [moved(box((0.12, 0.12, 0.012), (0, 0, -0.006)), spot) for spot in spots])
+            t.add_each("base plate", [moved(box((0.12, 0.12, 0.012), (0, 0, -0.006)), spot) for spot in spots])
             bolts(t, spots, 0.016, 0.012)
         return t.model()
 
@@ -193,7 +191,7 @@ class Forked(Structure, name="skid frame/fork pockets", weight=1.3):
         pocket = rect(self.pocket, 0.6 * h), (rect(self.pocket - 0.016, 0.6 * h - 0.016),)
         reach, apart = b / 2 - span_of(one)[0] + 0.01, min(0.28 * a, 0.45)
         solids += [bar((s * apart, -reach, h / 2), (s * apart, reach, h / 2), pocket) for s in BOTH]
-        spread(t.bundled(_SKID), _SKID, solids)
+        t.bundled(_SKID).add_each(_SKID, solids)
         up = t.at(0, 0, top)
         self.payload.build(up.at(0, 0, self.deck.build(up, a, b)), a, b)
         return t.model()
@@ -230,14 +228,14 @@ class Cage(Structure, name="skid frame/cage", weight=1.3, grain="fitting"):
                     t.add(name, box((c, c, c), (x, y, z)), box((0.08, c + 0.004, 0.05), (x, y, z)), of="clamp")
         g, reach = c / 2, b / 2 - max(c / 2, half)
         for z, name in ((low, _SKID), (h - low, "beam")):
-            spread(t, name, [bar((xs[0] + g, y, z), (xs[1] - g, y, z), one) for y in ys])
-            spread(t, name, [bar((x, -reach, z), (x, reach, z), one) for x in xs])
+            t.add_each(name, [bar((xs[0] + g, y, z), (xs[1] - g, y, z), one) for y in ys])
+            t.add_each(name, [bar((x, -reach, z), (x, reach, z), one) for x in xs])
         for x in np.linspace(*xs, self.ties)[1:-1]:
             t.add(_SKID, bar((x, ys[0] + half, low), (x, ys[1] - half, low), one))
         if self.braced:
             thin = section(self.brace, 0.04, t.style)
             x, z = a / 2 - half, low + half
-            spread(t, "brace", [bar((-x, y, z), (x, y, h - z), thin) for y in ys])
+            t.add_each("brace", [bar((-x, y, z), (x, y, h - z), thin) for y in ys])
         if self.floored:
             plate = box((a - self.size, b - self.size, 0.006), (0, 0, low + half - 0.004))
             t.add("plate", plate, of="clamp")
@@ -263,12 +261,12 @@ class Tray(Structure, name="skid frame/drip tray", weight=1.2):
         own.add(_SKID, moved(slab_yz(lip, a, 0.0), at(0, 0, low)), *ends)
         if self.feet:
             spots = [(sx * 0.42 * a, sy * 0.4 * b, low / 2 - thick / 2) for sx, sy in CORNERS]
-            spread(t, "post", [box((0.06, 0.06, low), spot) for spot in spots])
+            t.add_each("post", [box((0.06, 0.06, low), spot) for spot in spots])
         else:
             tall = low - thick / 2
-            spread(own, _SKID, [box((a, 0.06, tall), (0, s * 0.38 * b, tall / 2)) for s in BOTH])
+            own.add_each(_SKID, [box((a, 0.06, tall), (0, s * 0.38 * b, tall / 2)) for s in BOTH])
         size = (0.05, b - thick, deep - 0.03)
-        spread(t, "beam", [box(size, (x, 0, low + size[2] / 2)) for x in np.linspace(-0.35 * a, 0.35 * a, 3)])
+        t.add_each("beam", [box(size, (x, 0, low + size[2] / 2)) for x in np.linspace(-0.35 * a, 0.35 * a, 3)])
         if self.deck.called != _SKID:
             self.deck.build(t.at(0, 0, low + deep - 0.03), a - 0.03, b - 0.03)
         return t.model()
@@ -287,7 +285,7 @@ class Pallet(Structure, name="skid frame/pallet", weight=0.8):
     def build(self, t: Table) -> Model:
         a, b = self.size
         solids, of, top = {"timber": self._timber, "steel": self._steel, "plastic": self._plastic}[self.material](a, b)
-        spread(t.bundled("" if self.joined else _SKID), _SKID, solids, of=of, joined=self.joined)
+        t.bundled("" if self.joined else _SKID).add_each(_SKID, solids, of=of, joined=self.joined)
         self.payload.build(t.at(0, 0, top), 0.9 * a, 0.9 * b)
         return t.model()
 
@@ -328,14 +326,14 @@ class Folded(Structure, name="skid frame/folded"):
         line = ribbon([*half, *((-y, z) for y, z in half[::-1])], thick, 0.012, 2)
         own.at(0, 0, low).add(_SKID, slab_yz(line, a))
         size = (0.004, b - 2 * thick, h - thick)
-        spread(own, _SKID, [box(size, (s * (a / 2 - 0.03), 0, low + h / 2)) for s in BOTH])
+        own.add_each(_SKID, [box(size, (s * (a / 2 - 0.03), 0, low + h / 2)) for s in BOTH])
         if low > 0.02:
             foot = outline(0.02, 0, 0.024, 0.3 * low, 0.016, low - thick / 2)
             puck = turned(foot, few_sides(t.style, 0.02, 14))
             for sx, sy in CORNERS:
                 t.at(sx * 0.42 * a, sy * (b / 2 + flange / 2)).add("base plate", puck, of="rubber")
         z = low + h + thick / 2 + 0.015
-        spread(t, "plate", [box((0.15 * a, 0.5 * b, 0.03), (x, 0, z)) for x in (-0.25 * a, 0.2 * a)])
+        t.add_each("plate", [box((0.15 * a, 0.5 * b, 0.03), (x, 0, z)) for x in (-0.25 * a, 0.2 * a)])
         return t.model()
 
 
@@ -364,7 +362,7 @@ class Sledge(Structure, name="skid frame/sledge"):
         if timber:
             z, reach = 2.7 * r, b / 2 + 0.1
         xs = np.linspace(-0.45 * a, 0.45 * a, self.ties)
-        spread(own, _SKID, [bar((x, -reach, z), (x, reach, z), tie) for x in xs], of=of)
+        own.add_each(_SKID, [bar((x, -reach, z), (x, reach, z), tie) for x in xs], of=of)
         if not timber:
             x, z = a / 2 + 0.2, r + 0.2
             own.add(_SKID, pipe([(x, -b / 2, z), (x, b / 2, z)], 0.7 * r, t.style))
@@ -401,11 +399,11 @@ class MachineTable(Structure, name="frame/table", weight=1.5, grain="fitting"):
                 here.add("base plate", box((2 * half + 0.06, 2 * half + 0.06, 0.008), (0, 0, 0.004)))
         x, y = a / 2 - 0.4 * half, b / 2 - 0.4 * half
         for z in (h - half, 0.25 * h)[: 1 + self.low]:
-            spread(t, "beam", [bar((-x, s * b / 2, z), (x, s * b / 2, z), one) for s in BOTH])
-            spread(t, "beam", [bar((s * a / 2, -y, z), (s * a / 2, y, z), one) for s in BOTH])
+            t.add_each("beam", [bar((-x, s * b / 2, z), (x, s * b / 2, z), one) for s in BOTH])
+            t.add_each("beam", [bar((s * a / 2, -y, z), (s * a / 2, y, z), one) for s in BOTH])
         if self.braced:
             thin, top = section(self.brace, 0.03, t.style), h - 2 * half
-            spread(t, "brace", [bar((-a / 2, s * b / 2, 0.3 * h), (a / 2, s * b / 2, top), thin) for s in BOTH])
+            t.add_each("brace", [bar((-a / 2, s * b / 2, 0.3 * h), (a / 2, s * b / 2, top), thin) for s in BOTH])
         if self.topped:
             t.add("plate", box((a + 2 * half + 0.02, b + 2 * half + 0.02, 0.01), (0, 0, h + 0.005)), of="clamp")
         return t.model()
@@ -423,7 +421,7 @@ class Grouted(Structure, name="skid frame/grouted", weight=0.8):
     def build(self, t: Table) -> Model:
         a, b, h, low = self.length, self.width, self.size, self.low
         solids, top = _frame(a, b, section("U", h, t.style), 2)
-        spread(t.at(0, 0, low).bundled(_SKID), _SKID, solids)
+        t.at(0, 0, low).bundled(_SKID).add_each(_SKID, solids)
         t.add("foundation", box((a - 0.75 * h, b + 0.2 * h, 0.9 * h), (0, 0, low + 0.46 * h)))
         if self.raised:
             t.add("foundation", slab_xy(rounded_rectangle(a + 0.3, b + 0.3, 0.02, 1), 0, low))
@@ -432,7 +430,7 @@ class Grouted(Structure, name="skid frame/grouted", weight=0.8):
             for sx, sy in CORNERS:
                 t.at(sx * 0.4 * a, sy * b / 2).add("base plate", *spring, of="rubber")
         z = low + top - 0.08 * h + 0.01
-        spread(t, "plate", [box((0.2 * a, 0.6 * b, 0.02), (s * 0.25 * a, 0, z)) for s in BOTH])
+        t.add_each("plate", [box((0.2 * a, 0.6 * b, 0.02), (s * 0.25 * a, 0, z)) for s in BOTH])
         return t.model()
 
 

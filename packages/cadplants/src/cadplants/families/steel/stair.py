@@ -8,14 +8,13 @@ import numpy as np
 
 from cadplants.builder.device import families_of
 from cadplants.builder.draws import one_of, yes
-from cadplants.builder.params import among, between, chance, nested, whole
+from cadplants.builder.params import among, between, chance, nested, several, whole
 from cadplants.builder.table import Table
 from cadplants.families.steel.floor import panel
 from cadplants.families.steel.shape import (
     Base,
     Structure,
     bar,
-    each,
     few_sides,
     flat,
     pipe,
@@ -24,7 +23,6 @@ from cadplants.families.steel.shape import (
     slab_xy,
     slab_xz,
     span_of,
-    spread,
 )
 from cadplants.family import Model
 from cadplants.primitives import BOTH, CORNERS, box, cylinder, dome, ring
@@ -42,7 +40,9 @@ class Spiral(Structure, name="stairs/spiral", grain="fitting"):
     core: float = between(0.05, 0.09, "radius of the column", "m")
     base: Base = nested(Base, "base plate")
     collared: bool = chance(0.5, "the treads have collars round the column")
-    metals: tuple[str, ...] = each(one_of("steel", "steel", "clamp"), "kind of material of a tread")
+    metals: tuple[str, ...] = several(
+        one_of("steel", "steel", "clamp"), lambda p: p.count, "kind of material of a tread"
+    )
 
     def build(self, t: Table) -> Model:
         r, rise, core, step = self.radius, self.rise, self.core, 2 * np.pi / self.per_turn
@@ -87,18 +87,18 @@ class ConcreteFlight(Structure, name="stairs/concrete", weight=0.8, grain="fitti
         t.add("stair tread", slab_xz(np.array([*steps, *under][::-1]), wide), of="concrete")
         if self.cheeked:
             cheek = [(-0.1, 0), (run, 0), (run, h + 0.15), (-0.1, 0.15)]
-            spread(t, "wall", [slab_xz(cheek, 0.15, s * (wide / 2 + 0.075)) for s in BOTH])
+            t.add_each("wall", [slab_xz(cheek, 0.15, s * (wide / 2 + 0.075)) for s in BOTH])
         elif not solid:
             t.add("wall", box((0.3, wide, h - 0.2), (run + 0.15, 0, (h - 0.2) / 2)))
         if self.nosed:
             nosings = [box((0.05, wide, 0.004), (k * go + 0.025, 0, (k + 1) * rise + 0.002)) for k in range(n)]
-            spread(t, "plate", nosings, of="clamp")
+            t.add_each("plate", nosings, of="clamp")
         if self.railed:
             y = wide / 2 - 0.06
             t.add("railing", pipe([(0.5 * go, y, rise + 0.9), (run - 0.5 * go, y, h + 0.9)], 0.021, t.style))
             feet = [((k + 0.5) * go, y, (k + 1) * rise) for k in sorted({0, n // 2, n - 1})]
             posts = [pipe([(x, y, z), (x, y, z + 0.9)], 0.019, t.style) for x, y, z in feet]
-            spread(t, "post", posts, of="safety")
+            t.add_each("post", posts, of="safety")
         return t.model()
 
 
@@ -123,7 +123,7 @@ class SteelFlight(Structure, name="stairs/strings and spine", weight=1.5, grain=
         when=lambda p: p.string != "toothed",
     )
     tread: str = among(("bar", "fold", "sheet", "perforated", "planks"), "how the treads are made")
-    nosed: tuple[bool, ...] = each(yes(0.5), "whether a tread has a nosing")
+    nosed: tuple[bool, ...] = several(yes(0.5), lambda p: p.count, "whether a tread has a nosing")
     railed: bool = chance(0.7, "with a railing")
     both: bool = chance(0.6, "a railing on both sides, not on one", when=lambda p: p.railed)
 
@@ -150,14 +150,14 @@ class SteelFlight(Structure, name="stairs/strings and spine", weight=1.5, grain=
         if self.string == "toothed":
             teeth = [(k * go + d, (k + 1) * rise - 0.03) for k in range(n) for d in (0.0, go)]
             shape = np.array([*teeth, (run, h - 0.25), (0.0, 0.0)][::-1])
-            spread(t, "beam", [slab_xz(shape, 0.012, s * (y - 0.1)) for s in BOTH])
+            t.add_each("beam", [slab_xz(shape, 0.012, s * (y - 0.1)) for s in BOTH])
         elif self.string == "spine":
             one = section(self.spine, self.size, t.style)
             drop = span_of(one)[3] / np.cos(np.arctan2(rise, go)) + 0.12
             t.add("beam", bar((0.0, 0, rise - drop), (run - go, 0, h - drop), one))
         else:
             one = section(self.string, self.size, t.style)
-            spread(t, "beam", [bar((0, s * y, 0), (run, s * y, h), one) for s in BOTH])
+            t.add_each("beam", [bar((0, s * y, 0), (run, s * y, h), one) for s in BOTH])
 
     def _rails(self, t: Table, run: float, h: float) -> None:
         """Railings, over a run and a height [m]."""
@@ -191,11 +191,11 @@ class StepOver(Structure, name="stairs/step over", grain="fitting"):
         tread = panel(self.tread, go, wide, 0.03, t.style)
         for way in BOTH if self.both else (1,):
             foot = way * (x + go * n)
-            spread(t, "beam", [bar((foot, s * y, 0.05), (way * x, s * y, h - 0.05), one) for s in BOTH])
+            t.add_each("beam", [bar((foot, s * y, 0.05), (way * x, s * y, h - 0.05), one) for s in BOTH])
             for k in range(n):
                 here = t.at(way * (x + go * (n - k - 0.5)), 0, rise * (k + 1) - 0.03)
                 here.add("stair tread", tread, of="clamp")
-        spread(t, "column", [bar((sx * x, sy * y, 0), (sx * x, sy * y, h - 0.03), leg) for sx, sy in CORNERS])
+        t.add_each("column", [bar((sx * x, sy * y, 0), (sx * x, sy * y, h - 0.03), leg) for sx, sy in CORNERS])
         for s in BOTH if self.railed else ():
             path = [(x_, s * y, z) for x_, z in ((-x, h - 0.03), (-x, h + 0.95), (x, h + 0.95), (x, h - 0.03))]
             t.add("railing", pipe(path, 0.019, t.style, 0.12))

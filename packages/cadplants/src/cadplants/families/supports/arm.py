@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 
 from cadplants.builder.device import families_of
-from cadplants.builder.params import among, between, chance, nested, whole
+from cadplants.builder.draws import one_of
+from cadplants.builder.params import among, between, chance, nested, several, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.supports.clamp import half_band
 from cadplants.families.supports.shape import (
@@ -21,7 +22,6 @@ from cadplants.families.supports.shape import (
     arc_yz,
     few,
     foot_of,
-    picks,
     piece_of,
     radius,
     section_of,
@@ -117,8 +117,8 @@ class Folded(Bracket, name="bracket/folded"):
     lean: float = among(
         (0.0, 0.015), "how far a hat's sides lean out", "m", when=lambda p: p.form == "hat", otherwise=0.0
     )
-    heads: tuple[str, ...] = picks(
-        ("none", "socket"),
+    heads: tuple[str, ...] = several(
+        one_of("none", "socket"),
         lambda p: (2 if p.form == "hat" else 1) * (2 if Folded.width(p) > 0.05 else 1),
         "heads of the screws; none is a hexagon",
     )

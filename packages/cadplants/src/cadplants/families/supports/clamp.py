@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 
 from cadplants.builder.device import families_of
-from cadplants.builder.params import Params, among, between, chance, nested
+from cadplants.builder.draws import one_of, yes
+from cadplants.builder.params import Params, among, between, chance, nested, several
 from cadplants.builder.table import Table
 from cadplants.families.supports.shape import (
     Below,
@@ -17,10 +18,8 @@ from cadplants.families.supports.shape import (
     add_bolt,
     add_wall,
     arc_yz,
-    chances,
     few,
     hung,
-    picks,
     radius,
     slab_yz,
     standing,
@@ -87,7 +86,7 @@ class TwoBolt(_Banded, name="clamp/two-bolt"):
     """A two-bolt clamp whose halves stand left and right (MSS SP-58 type 4), its lower ears on a blade of a bracket."""
 
     blade: float = among((0.006, 0.008, 0.01), "thickness of the blade", "m")
-    heads: tuple[str, ...] = picks(("hex", "flange"), 2, "heads of the bolts, lower first")
+    heads: tuple[str, ...] = several(one_of("hex", "flange"), 2, "heads of the bolts, lower first")
     drop: float = between(0.02, 0.1, "from the ears to the bracket's foot", "m")
     web: float = between(0.8, 1.3, "width of the blade / of the band")
     below: Below = standing(lambda p: TwoBolt.depth(p) + 0.01)
@@ -121,7 +120,7 @@ class Riser(Fitting, name="clamp/riser", bundle="clamp", label="clamp", sizes=SI
     ear: float = between(0.08, 0.2, "length of an ear - radius of the line", "m")
     level: float = between(0.5, 1.2, "height of what the clamp lies on", "m")
     high: float = between(1.5, 2.2, "height of the line's end", "m")
-    second: tuple[bool, ...] = chances(0.3, 2, "a second bolt through the ears on either side")
+    second: tuple[bool, ...] = several(yes(0.3), 2, "a second bolt through the ears on either side")
     slab: bool = chance(0.5, "on a slab, not on beams")
     deep: float = between(0.1, 0.2, "thickness of the slab", "m", when=lambda p: p.slab)
     taken: str = among(("platform", "foundation"), "what the slab is taken for", when=lambda p: p.slab)
@@ -197,7 +196,7 @@ class SplitRing(_Clamp, name="clamp/split ring"):
     pad: float = between(0.003, 0.007, "thickness of the lining", "m", when=lambda p: p.lined)
     thick: float = between(0, 0.001, "thickness of the ring over the usual one", "m")
     lips: bool = chance(0.6, "the lining reaches over the edges", when=lambda p: p.lined)
-    heads: tuple[str, ...] = picks(("socket", "none", "hex"), 2, "heads of the bolts")
+    heads: tuple[str, ...] = several(one_of("socket", "none", "hex"), 2, "heads of the bolts")
     hexagonal: bool = chance(0.5, "the boss is hexagonal")
     reach: float = between(0.03, 0.25, "length of the stud", "m")
     round: bool = chance(0.5, "the flange plate is round")
@@ -284,7 +283,7 @@ class Anchor(_Banded, name="clamp/anchor", sizes=SIZES[4:]):
     """A heavy fixed point: a wide clamp with four bolts or six on a welded chair with ribs (DIN 3567, EN 13480-3)."""
 
     four: bool = chance(0.7, "four bolts, not six")
-    heads: tuple[str, ...] = picks(("hex", "stud"), lambda p: 4 if p.four else 6, "heads of the bolts")
+    heads: tuple[str, ...] = several(one_of("hex", "stud"), lambda p: 4 if p.four else 6, "heads of the bolts")
     drop: float = between(0.05, 0.15, "from the clamp to the chair's foot", "m")
     below: Below = standing(lambda p: Anchor.depth(p) + 0.012)
 
@@ -319,7 +318,7 @@ class Block(_Clamp, name="clamp/block", sizes=_SMALL):
 
     double: bool = chance(0.3, "for two lines, where they are thin")
     covered: bool = chance(0.75, "a cover plate")
-    plain: tuple[bool, ...] = chances(0.6, lambda p: 1 if Block.twin(p) else 2, "hexagon heads on the bolts")
+    plain: tuple[bool, ...] = several(yes(0.6), lambda p: 1 if Block.twin(p) else 2, "hexagon heads on the bolts")
     sole: float = between(0, 0.04, "length of the weld plate over the block", "m")
     below: Below = standing(lambda p: Block.high(p) + 0.006)
 

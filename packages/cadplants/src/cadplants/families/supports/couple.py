@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from cadplants.builder.device import families_of
+from cadplants.builder.draws import made, one_of
 from cadplants.builder.params import Params, among, between, chance, given, several, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.supports.shape import (
@@ -14,7 +15,6 @@ from cadplants.families.supports.shape import (
     add_bolt,
     arc_yz,
     few,
-    picks,
     slab_yz,
     strap,
     upright,
@@ -78,7 +78,7 @@ class Hose(Fitting, name="clamp/hose", place="end", label="clamp", bundle="clamp
     swing: float = between(0, 0.35, "how far it hangs down / its length")
     form: str = among(("worm drive", "trunnions", "ears", "wire"), "how the clamps are closed")
     one: bool = chance(0.6, "one clamp")
-    clamps: tuple[_HoseClamp, ...] = several(lambda rng, _: _HoseClamp.draw(rng), lambda p: 1 if p.one else 2, "clamps")
+    clamps: tuple[_HoseClamp, ...] = several(made(_HoseClamp), lambda p: 1 if p.one else 2, "clamps")
 
     def build(self, t: Table) -> Model:
         r = t.pipe.radius
@@ -100,8 +100,8 @@ class Coupler(Fitting, name="clamp/coupler", label="clamp", bundle="clamp"):
     span: float = between(0.7, 1.5, "from post to post", "m")
     lean: float = among((0.0, 0.0, 0.5, -0.7), "of a slanting tube, at most", "rad")
     second: float = between(0.3, 0.6, "height of a second level tube / of the posts", when=lambda p: not p.lean)
-    taken: tuple[str, ...] = picks(
-        ("beam", "railing"), 2, "what the level tubes are taken for, lower first", when=lambda p: not p.lean
+    taken: tuple[str, ...] = several(
+        one_of("beam", "railing"), 2, "what the level tubes are taken for, lower first", when=lambda p: not p.lean
     )
 
     def build(self, t: Table) -> Model:
@@ -152,7 +152,9 @@ class _Rung(Params):
 
     pieces: int = given(1, "pieces of the cleats on it")
     taken: str = among(("beam", "beam", "plate"), "what it is taken for")
-    materials: tuple[str, ...] = picks(("clamp", "clamp", "rubber"), lambda p: p.pieces, "materials of the cleats")
+    materials: tuple[str, ...] = several(
+        one_of("clamp", "clamp", "rubber"), lambda p: p.pieces, "materials of the cleats"
+    )
 
 
 class Cleat(Fitting, name="clamp/cleat", label="clamp", bundle="clamp"):
@@ -165,7 +167,7 @@ class Cleat(Fitting, name="clamp/cleat", label="clamp", bundle="clamp"):
     form: str = among(_CLEATS, "how the cleats are made")
     cables: int = whole(1, 3, "cables side by side", when=lambda p: p.form != "trefoil", otherwise=1)
     rungs: tuple[_Rung, ...] = several(
-        lambda rng, p: _Rung.draw(rng, {"pieces": p.cables * (2 if p.form == "blocks" else 1)}),
+        made(_Rung, lambda p: {"pieces": p.cables * (2 if p.form == "blocks" else 1)}),
         lambda p: len(Cleat.places(p)),
         "struts",
     )
@@ -233,7 +235,7 @@ class Girder(Fitting, name="clamp/girder", label="clamp", bundle="clamp"):
     low: float = between(0.5, 1.2, "height of the lower beam's underside", "m")
     plate: float = among((0.0, 0.01, 0.015), "thickness of a plate between the beams", "m")
     form: str = among(("cast", "bent", "round"), "how the jaws are made")
-    posts: tuple[str, ...] = picks(("post", "column", "foundation"), 2, "what the posts are taken for")
+    posts: tuple[str, ...] = several(one_of("post", "column", "foundation"), 2, "what the posts are taken for")
 
     def build(self, t: Table) -> Model:
         h, b, f, d, length, z = self.high, self.wide, 0.01, self.size, self.long, self.low

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from cadplants.builder.device import families_of
+from cadplants.builder.draws import made
 from cadplants.builder.params import Params, among, between, chance, each, given, several, styled, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.supports.shape import Fitting, eye, few, shuffled, upright
@@ -169,7 +170,7 @@ class Nuts(_Fasteners, name="nut/kinds", label="nut"):
     thick: float = between(0.5, 1.5, "of the plate / diameter")
     ranks: int = whole(1, 2, "rows of nuts")
     raised: bool = chance(0.5, "the plate is on feet")
-    nuts: tuple[_NutOn, ...] = several(lambda rng, p: _NutOn.draw(rng, _pieces(p)), lambda p: p.count, "nuts")
+    nuts: tuple[_NutOn, ...] = several(made(_NutOn, _pieces), lambda p: p.count, "nuts")
 
     def build(self, t: Table) -> Model:
         d, rows = self.size, self.ranks
@@ -278,7 +279,7 @@ class Washers(_Fasteners, name="washer/kinds", label="washer"):
     high: float = between(7, 12, "height of the beam / diameter")
     kinds: tuple[str, ...] = shuffled(_WASHERS, "washers; the first are there")
     count: int = whole(4, 7, "washers that are there")
-    bolts: tuple[_Washered, ...] = several(lambda rng, p: _Washered.draw(rng, _pieces(p)), lambda p: p.count, "bolts")
+    bolts: tuple[_Washered, ...] = several(made(_Washered, _pieces), lambda p: p.count, "bolts")
     channel: bool = chance(0.6, "in a channel, not in an I beam")
 
     def build(self, t: Table) -> Model:
@@ -345,7 +346,7 @@ class Anchors(_Fasteners, name="bolt/anchor", label="bolt"):
     deep: float = between(10, 16, "length of an anchor in the concrete / diameter")
     out: float = between(4, 7, "length of an anchor outside / diameter")
     cast: bool = chance(0.55, "cast in, not in a template")
-    anchors: tuple[_Anchor, ...] = several(lambda rng, p: _Anchor.draw(rng, _pieces(p)), lambda p: p.count, "anchors")
+    anchors: tuple[_Anchor, ...] = several(made(_Anchor, _pieces), lambda p: p.count, "anchors")
 
     def build(self, t: Table) -> Model:
         d, deep, loose = self.size, self.deep * self.size, replace(t, parts=[])

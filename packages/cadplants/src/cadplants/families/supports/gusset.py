@@ -6,13 +6,13 @@ import numpy as np
 
 from cadgraph.model.scene import Floats
 from cadplants.builder.device import families_of
+from cadplants.builder.draws import made, one_of
 from cadplants.builder.params import Params, among, between, chance, given, nested, several, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.supports.shape import (
     Fitting,
     Section,
     add_bolt,
-    picks,
     section_of,
     slab_yz,
     upright,
@@ -62,7 +62,7 @@ class _Member(Params):
 
     bolted: bool = given(True, "bolted to the node")
     long: float = between(0.4, 0.55, "length that is there", "m")
-    heads: tuple[str, ...] = picks(_HEADS, 2, "heads of its bolts", when=lambda p: p.bolted)
+    heads: tuple[str, ...] = several(one_of(*_HEADS), 2, "heads of its bolts", when=lambda p: p.bolted)
 
 
 _FANS = ((0.25, 0.75), (0.25, 0.5, 0.75), (0.5, 0.8))
@@ -80,7 +80,7 @@ class TrussNode(_Joint, name="gusset plate/truss node"):
     fan: tuple[float, ...] = among(_FANS, "angles of the members / half a turn")
     size: float = among((0.012, 0.016), "diameter of the bolts", "m")
     members: tuple[_Member, ...] = several(
-        lambda rng, p: _Member.draw(rng, {"bolted": p.section != "tube"}), lambda p: len(p.fan), "members"
+        made(_Member, lambda p: {"bolted": p.section != "tube"}), lambda p: len(p.fan), "members"
     )
 
     def build(self, t: Table) -> Model:
@@ -134,7 +134,7 @@ class BracingCorner(_Joint, name="gusset plate/bracing corner"):
     brace: str = among(("angle", "channel", "flat"), "section of the brace")
     bolt: float = among((0.012, 0.016, 0.02), "diameter of the bolts", "m")
     bolts: int = whole(2, 3, "bolts")
-    heads: tuple[str, ...] = picks(_HEADS, lambda p: p.bolts, "heads of the bolts")
+    heads: tuple[str, ...] = several(one_of(*_HEADS), lambda p: p.bolts, "heads of the bolts")
 
     def build(self, t: Table) -> Model:
         size, tall, reach, thick, w, h = self.size, self.tall, self.reach, self.thick, self.wide, self.high
@@ -184,7 +184,7 @@ class Haunch(_Joint, name="gusset plate/haunch"):
     haunched: bool = chance(0.7, "a haunch")
     curved: bool = chance(0.3, "the haunch is a plate with a hollow edge", when=lambda p: p.haunched)
     lines: int = whole(3, 5, "rows of bolts")
-    heads: tuple[str, ...] = picks(("hex", "flange"), lambda p: 2 * p.lines, "heads of the bolts")
+    heads: tuple[str, ...] = several(one_of("hex", "flange"), lambda p: 2 * p.lines, "heads of the bolts")
     clipped: bool = chance(0.6, "the stiffeners' corners are cut")
 
     def build(self, t: Table) -> Model:
@@ -272,10 +272,10 @@ class Splice(_Joint, name="gusset plate/splice"):
     gussets: bool = chance(0.5, "the covers are taken for gusset plates")
     lines: int = whole(2, 3, "rows of bolts on either side")
     covered: bool = chance(0.75, "cover plates, not end plates")
-    heads: tuple[str, ...] = picks(
-        ("hex", "flange"), lambda p: 8 * p.lines, "heads of the bolts in the flanges", when=lambda p: p.covered
+    heads: tuple[str, ...] = several(
+        one_of("hex", "flange"), lambda p: 8 * p.lines, "heads of the bolts in the flanges", when=lambda p: p.covered
     )
-    posts: tuple[str, ...] = picks(("post", "column"), 2, "what the posts are taken for")
+    posts: tuple[str, ...] = several(one_of("post", "column"), 2, "what the posts are taken for")
 
     def build(self, t: Table) -> Model:
         h, half, level = self.high, self.half, self.level

@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 
 from cadplants.builder.device import families_of
-from cadplants.builder.params import among, between, chance, given
+from cadplants.builder.draws import yes
+from cadplants.builder.params import among, between, chance, given, several
 from cadplants.builder.table import Table, outline
 from cadplants.families.supports.clamp import half_band
 from cadplants.families.supports.shape import (
@@ -18,7 +19,6 @@ from cadplants.families.supports.shape import (
     add_bolt,
     add_nuts,
     arc_yz,
-    chances,
     eye,
     few,
     hung,
@@ -186,7 +186,7 @@ class SwivelRing(Hanger, name="pipe hanger/swivel ring", sizes=SIZES[:10]):
 class ThreeBolt(Hanger, name="pipe hanger/three-bolt"):
     """A three-bolt clamp (MSS SP-58 type 3): long upper ears, their load bolt carries an eye rod."""
 
-    hangers: tuple[bool, ...] = chances(0.5, 2, "whether the first half, which counts, is a hanger, not a clamp")
+    hangers: tuple[bool, ...] = several(yes(0.5), 2, "whether the first half, which counts, is a hanger, not a clamp")
     arm: float = between(0.02, 0.08, "length of the upper ears - 4 rods", "m")
     drop: float = between(0.2, 0.7, "from the eye to the end of the rod", "m")
     above: _Attached = _attached()
@@ -224,7 +224,7 @@ class Roller(Hanger, name="pipe hanger/roller", sizes=SIZES[4:]):
 
     drop: float = between(0.15, 0.6, "from the line or the yoke to the end of the rod", "m")
     two: bool = chance(0.5, "two rods")
-    eyes: tuple[bool, ...] = chances(0.8, 2, "an eye round the axle at either end", when=lambda p: p.two)
+    eyes: tuple[bool, ...] = several(yes(0.8), 2, "an eye round the axle at either end", when=lambda p: p.two)
     over: Overhead = hung(lambda p: Roller.out(p), when=lambda p: p.two)
     above: _Attached = _attached(when=lambda p: not p.two)
 

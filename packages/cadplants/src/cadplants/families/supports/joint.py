@@ -6,6 +6,7 @@ import numpy as np
 
 from cadgraph.model.scene import Floats
 from cadplants.builder.device import families_of
+from cadplants.builder.draws import made
 from cadplants.builder.params import Params, among, between, chance, each, given, several, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.supports.fastener import add_piece, head_solid, nut_solid
@@ -85,9 +86,7 @@ class _OnStrut(Params):
     """What is screwed on a strut."""
 
     form: str = among(("plate", "angle", "washer", "step"), "what it is")
-    fixings: tuple[_Fixing, ...] = several(
-        lambda rng, _: _Fixing.draw(rng), lambda p: 2 if p.form == "plate" else 1, "bolts in the slot"
-    )
+    fixings: tuple[_Fixing, ...] = several(made(_Fixing), lambda p: 2 if p.form == "plate" else 1, "bolts in the slot")
 
 
 class Strut(Fitting, name="bolt/strut", label="bolt"):
@@ -98,7 +97,7 @@ class Strut(Fitting, name="bolt/strut", label="bolt"):
     size: float = among((0.008, 0.01, 0.012), "diameter of the bolts", "m")
     gap: float = between(0.25, 0.5, "from strut to strut", "m")
     high: float = between(0.3, 1.0, "height of the struts' upper side", "m")
-    things: tuple[_OnStrut, ...] = several(lambda rng, _: _OnStrut.draw(rng), lambda p: p.count, "things on them")
+    things: tuple[_OnStrut, ...] = several(made(_OnStrut), lambda p: p.count, "things on them")
 
     def build(self, t: Table) -> Model:
         table, s, thick, lip, plate = t, 0.041, 0.0025, 0.0095, 0.006

@@ -21,13 +21,10 @@ from cadplants.builder.params import (
     chance,
     given,
     nested,
-    several,
     styled,
     whole,
 )
 from cadplants.builder.table import Table
-from cadplants.families.chance import chance as happens
-from cadplants.families.chance import pick
 from cadplants.mesh_ops import Solid, about_x, extrude, merge, moved, sweep
 from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle, section_angle, section_channel, section_i
@@ -37,7 +34,7 @@ from cadplants.transforms import spun
 
 __all__ = [
     "Below", "Carrier", "Feet", "Fitting", "Footing", "Overhead", "Section", "Standing",
-    "add_bolt", "add_nuts", "add_wall", "arc_yz", "bow", "chances", "eye", "few", "foot_of", "hung", "picks",
+    "add_bolt", "add_nuts", "add_wall", "arc_yz", "bow", "eye", "few", "foot_of", "hung",
     "piece_of", "piecemeal", "radius", "screwed", "section_of", "shuffled", "slab_yz", "standing", "strap", "upright",
 ]  # fmt: skip
 
@@ -185,18 +182,6 @@ def shuffled(items: Sequence[str], about: str) -> tuple[str, ...]:
     limits = f"{', '.join(items)} in some order"
     draw = lambda source, _: tuple(map(str, source.rng.permutation(list(items))))  # noqa: E731
     return dataclasses.field(metadata={"spec": Field(about, "", limits, draw, accept)})  # type: ignore[no-any-return]
-
-
-def picks(items: Sequence[T], count: int | Callable[[Any], int], about: str, when: When | None = None) -> tuple[T, ...]:
-    """A field: several of some things, one after the other."""
-    number = count if callable(count) else lambda _: count
-    return several(lambda rng, _: pick(rng, *items), number, about, when=when)
-
-
-def chances(share: float, count: int | Callable[[Any], int], about: str, when: When | None = None) -> tuple[bool, ...]:
-    """A field: whether something is so that is so this often, several times."""
-    number = count if callable(count) else lambda _: count
-    return several(lambda rng, _: happens(rng, share), number, about, when=when)
 
 
 def piece_of(kind: type[P], about: str, *said: str, when: When | None = None) -> P:

@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 
 from cadplants.builder.device import families_of
-from cadplants.builder.params import Params, among, between, chance, nested
+from cadplants.builder.draws import yes
+from cadplants.builder.params import Params, among, between, chance, nested, several
 from cadplants.builder.table import Table, outline
 from cadplants.families.supports.hanger import roller
 from cadplants.families.supports.shape import (
@@ -19,7 +20,6 @@ from cadplants.families.supports.shape import (
     add_nuts,
     add_wall,
     arc_yz,
-    chances,
     few,
     foot_of,
     piecemeal,
@@ -192,7 +192,7 @@ class GuidedShoe(Bracket, name="bracket/guided shoe"):
     slide: float = among((0.0, 0.003, 0.006), "thickness of the slide plate", "m")
     lips: bool = chance(0.6, "the guides hold it down")
     reach: float = between(0.3, 1.0, "length of the guides / 0.6 of the shoe")
-    bolted: tuple[bool, ...] = chances(0.5, 2, "whether the guide is bolted on, on either side")
+    bolted: tuple[bool, ...] = several(yes(0.5), 2, "whether the guide is bolted on, on either side")
     below: Below = standing(lambda p: 1.35 * radius(p) + 0.06 + p.slide + 0.012)
 
     def build(self, t: Table) -> Model:

@@ -6,11 +6,8 @@ import numpy as np
 
 from cadplants.builder.device import families_of
 from cadplants.builder.draws import yes
-from cadplants.builder.params import among, between, chance, whole
+from cadplants.builder.params import among, between, chance, several, whole
 from cadplants.builder.table import Table, outline
-from cadplants.families.steel.shape import (
-    each,
-)
 from cadplants.families.utilities.mounting import Utility, wall
 from cadplants.family import Family, Model
 from cadplants.mesh_ops import Solid, extrude, merge, moved
@@ -35,7 +32,7 @@ class DryBarrel(_Hydrant, name="hydrant/dry barrel", weight=1.2):
     fluted: bool = chance(0.4, "its barrel has flutes")
     flutes: int = among((8, 12), "flutes", when=lambda p: p.fluted, otherwise=0)
     count: int = whole(2, 3, "nozzles")
-    chained: tuple[bool, ...] = each(yes(0.6), "whether a nozzle's cap is on a chain")
+    chained: tuple[bool, ...] = several(yes(0.6), lambda p: p.count, "whether a nozzle's cap is on a chain")
     guarded: bool = chance(0.4, "a guard post beside it")
 
     def build(self, t: Table) -> Model:

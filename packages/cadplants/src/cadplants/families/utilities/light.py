@@ -8,11 +8,8 @@ import numpy as np
 
 from cadplants.builder.device import families_of
 from cadplants.builder.draws import made, of_form, one_of
-from cadplants.builder.params import Params, among, between, chance, nested, whole
+from cadplants.builder.params import Params, among, between, chance, nested, several, whole
 from cadplants.builder.table import Table, outline
-from cadplants.families.steel.shape import (
-    each,
-)
 from cadplants.families.utilities.mounting import Back, Utility, beam_over, h_column, hanger, pole, wall
 from cadplants.family import Family, Model
 from cadplants.mesh_ops import Solid, about_x, extrude, merge, moved
@@ -121,7 +118,7 @@ class Floodlight(_Lamp, name="lamp/floodlight"):
     height: float = between(
         lambda p: 2.5 if p.count > 1 else 1.8, lambda p: 5.0 if p.count > 1 else 3.0, "of the floodlights", "m"
     )
-    floods: tuple[_Flood, ...] = each(made(_Flood), "floodlights")
+    floods: tuple[_Flood, ...] = several(made(_Flood), lambda p: p.count, "floodlights")
     back: Back | None = nested(Back, "what a single one is fixed to", when=lambda p: p.count == 1)
 
     def build(self, t: Table) -> Model:
@@ -193,7 +190,7 @@ class HighBay(_Lamp, name="lamp/high bay"):
     form: str = among(("bell", "disc"), "of a lamp")
     radius: float = between(0.15, 0.28, "of a lamp", "m")
     drop: float = between(0.2, 0.8, "from the beam to a lamp", "m")
-    fins: tuple[int, ...] = each(one_of(16, 24), "fins of a disc", when=of_form("disc"))
+    fins: tuple[int, ...] = several(one_of(16, 24), lambda p: p.count, "fins of a disc", when=of_form("disc"))
 
     def build(self, t: Table) -> Model:
         r, high, n = self.radius, self.height, t.n(self.radius)

@@ -8,11 +8,8 @@ import numpy as np
 
 from cadplants.builder.device import families_of
 from cadplants.builder.draws import made, of_form, one_of, yes
-from cadplants.builder.params import Params, among, between, chance, given, nested, whole
+from cadplants.builder.params import Params, among, between, chance, given, nested, several, whole
 from cadplants.builder.table import Table, outline
-from cadplants.families.steel.shape import (
-    each,
-)
 from cadplants.families.utilities.mounting import Utility, gland, h_column, pole, wall
 from cadplants.family import Family, Model
 from cadplants.mesh_ops import Solid, about_x, extrude, merge, moved
@@ -82,8 +79,8 @@ class Suite(_Panel, name="control panel/suite", weight=1.2):
     plinth: float = among((0.1, 0.2), "height of the plinth", "m")
     drawers: bool = chance(0.35, "all but the first cubicle have drawers")
     first: _Cubicle = nested(_Cubicle, "first cubicle")
-    others: tuple[_Cubicle, ...] = each(
-        made(_Cubicle, lambda p: {"drawers": p.drawers}), "other cubicles", count=lambda p: p.count - 1
+    others: tuple[_Cubicle, ...] = several(
+        made(_Cubicle, lambda p: {"drawers": p.drawers}), lambda p: p.count - 1, "other cubicles"
     )
     top: str = among(("eyes", "roof", "fan", "plain"), "what is on it")
 
@@ -126,7 +123,7 @@ class WallBox(_Panel, name="control panel/wall box", weight=1.2):
     front: str = among(("switch", "plate", "slots"), "what else is on the door")
     roofed: bool = chance(0.35, "a rain roof")
     count: int = whole(0, 4, "glands")
-    entries: tuple[_Entry, ...] = each(made(_Entry), "glands")
+    entries: tuple[_Entry, ...] = several(made(_Entry), lambda p: p.count, "glands")
     walled: bool = chance(0.5, "it is on a wall, not on two posts")
 
     def build(self, t: Table) -> Model:
@@ -192,7 +189,7 @@ class Console(_Panel, name="control panel/console"):
     top: float = between(1.1, 1.5, "height of the back", "m", when=_desk)
     slope: float = between(0.1, 0.2, "rise of the desk's top", "m", when=_desk)
     back: float = between(0.15, 0.25, "depth of the back", "m", when=_desk)
-    knobs: tuple[int, ...] = each(one_of(1, 2), "rows of knobs on a bay", count=lambda p: p.bays, when=_desk)
+    knobs: tuple[int, ...] = several(one_of(1, 2), lambda p: p.bays, "rows of knobs on a bay", when=_desk)
 
     def build(self, t: Table) -> Model:
         if self.pedestal:
@@ -236,8 +233,8 @@ class LocalStation(_Panel, name="control panel/local station", weight=1.5):
     tall: float = between(1.2, 1.8, "height of an isolator / width", when=_isolates)
     depth: float = between(0.06, 0.1, "of a box with buttons", "m", when=lambda p: not _isolates(p))
     stopped: bool = chance(0.4, "its lowest button is an emergency stop", when=_several)
-    heads: tuple[float, ...] = each(
-        one_of(0.01, 0.018), "how far a button stands out", "m", count=lambda p: p.count - p.stopped, when=_several
+    heads: tuple[float, ...] = several(
+        one_of(0.01, 0.018), lambda p: p.count - p.stopped, "how far a button stands out", "m", when=_several
     )
     walled: bool = chance(0.4, "it is on a wall")
     hooded: bool = chance(0.4, "it is under a hood on a post, not on a column", when=lambda p: not p.walled)
@@ -280,11 +277,8 @@ class _Terminal(Params):
     depth: float = between(0.5, 0.8, "depth / width")
     hubs: int = whole(2, 4, "hubs besides the lowest", when=of_form("hubs"))
     glands: int = whole(1, 4, "glands below", when=of_form("flameproof", "plastic"))
-    beside: tuple[bool, ...] = each(
-        yes(0.3),
-        "whether a gland is at a side, but for a pull box",
-        count=2,
-        when=of_form("flameproof", "plastic", "pull"),
+    beside: tuple[bool, ...] = several(
+        yes(0.3), 2, "whether a gland is at a side, but for a pull box", when=of_form("flameproof", "plastic", "pull")
     )
     wired: bool = chance(0.7, "a cable or conduit comes in")
 
@@ -331,7 +325,7 @@ class Makes(Utility, name="junction box/makes", weight=2.0, bundle=_JB, grain="s
 
     height: float = between(1.0, 1.5, "of the boxes", "m")
     count: int = whole(1, 3, "boxes")
-    boxes: tuple[_Terminal, ...] = each(made(_Terminal), "boxes")
+    boxes: tuple[_Terminal, ...] = several(made(_Terminal), lambda p: p.count, "boxes")
     walled: bool = chance(0.5, "they are on a wall, not on a frame")
 
     def build(self, t: Table) -> Model:

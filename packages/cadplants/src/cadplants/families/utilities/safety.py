@@ -6,11 +6,8 @@ import numpy as np
 
 from cadplants.builder.device import families_of
 from cadplants.builder.draws import made, of_form, yes
-from cadplants.builder.params import Params, among, between, chance, nested, whole
+from cadplants.builder.params import Params, among, between, chance, nested, several, whole
 from cadplants.builder.table import Table, outline
-from cadplants.families.steel.shape import (
-    each,
-)
 from cadplants.families.utilities.mounting import Utility
 from cadplants.families.utilities.tray import perforated
 from cadplants.family import Family, Model
@@ -68,7 +65,7 @@ class Tray(Utility, name="cable tray/ladder and basket", weight=1.5):
     level: float = between(0.6, 2.5, "of the tray over the floor", "m")
     form: str = among(("ladder", "perforated", "basket"), "how it is made")
     count: int = whole(0, 4, "cables")
-    cables: tuple[_Cable, ...] = each(made(_Cable), "cables in it")
+    cables: tuple[_Cable, ...] = several(made(_Cable), lambda p: p.count, "cables in it")
 
     def build(self, t: Table) -> Model:
         length, w, z = self.length, self.width, self.level
@@ -146,7 +143,7 @@ class BoxOnPost(Utility, name="junction box/post", bundle="junction box", grain=
     depth: float = between(0.4, 0.7, "depth of the box / width")
     tall: float = between(0.8, 2.0, "height of the box / width")
     buttons: bool = chance(0.5, "three buttons on the lid")
-    cables: tuple[bool, ...] = each(yes(0.7), "whether a cable comes out of a gland", count=2)
+    cables: tuple[bool, ...] = several(yes(0.7), 2, "whether a cable comes out of a gland")
     post: _Post = nested(_Post, "post")
 
     def build(self, t: Table) -> Model:

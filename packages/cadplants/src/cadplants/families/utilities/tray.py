@@ -11,9 +11,6 @@ from cadplants.builder.device import families_of
 from cadplants.builder.draws import made, of_form
 from cadplants.builder.params import Params, among, between, chance, given, nested, several, whole
 from cadplants.builder.table import Table, outline
-from cadplants.families.steel.shape import (
-    each,
-)
 from cadplants.families.utilities.mounting import Utility, beam_over, h_column, hanger, wall
 from cadplants.family import Family, Model
 from cadplants.mesh_ops import Solid, extrude, lattice, merge, moved
@@ -210,7 +207,7 @@ class Tiers(_Trays, name="cable tray/tiers"):
     pitch: float = between(0.25, 0.4, "from tray to tray", "m")
     low: float = between(0.5, 1.4, "of the lowest tray over the floor", "m")
     back: str = among(("wall", "column", "stand"), "what the arms are fixed to")
-    tiers: tuple[_Tier, ...] = each(made(_Tier, lambda p: {"width": p.width}), "trays")
+    tiers: tuple[_Tier, ...] = several(made(_Tier, lambda p: {"width": p.width}), lambda p: p.count, "trays")
 
     def build(self, t: Table) -> Model:
         length, w, top = self.length, self.width, self.low + (self.count - 1) * self.pitch + 0.4

@@ -7,11 +7,8 @@ import numpy as np
 from cadgraph.model.scene import Floats
 from cadplants.builder.device import families_of
 from cadplants.builder.draws import made, number, of_form
-from cadplants.builder.params import Params, among, between, chance, nested, whole
+from cadplants.builder.params import Params, among, between, chance, nested, several, whole
 from cadplants.builder.table import Table, outline
-from cadplants.families.steel.shape import (
-    each,
-)
 from cadplants.families.utilities.mounting import Back, Utility, beam_over, pole, wall
 from cadplants.family import Family, Model
 from cadplants.mesh_ops import about_x, extrude, merge, moved
@@ -183,7 +180,7 @@ class Mounted(Utility, name="sign/mounted", weight=1.5, bundle=_S):
     height: float = between(1.3, 2.2, "of its middle", "m")
     thick: float = among((0.002, 0.004, 0.012), "of a sign", "m")
     count: int = whole(1, 4, "signs on a wall", when=of_form("wall"))
-    plates: tuple[_Plate, ...] = each(made(_Plate), "signs on a wall")
+    plates: tuple[_Plate, ...] = several(made(_Plate), lambda p: p.count, "signs on a wall")
     back: Back | None = nested(Back, "what a flag is fixed to", when=of_form("flag"))
     drop: float = between(0.2, 0.6, "length of the chains", "m", when=of_form("hung"))
 
@@ -240,8 +237,12 @@ class Marker(Utility, name="sign/marker", weight=1.2, bundle=_S):
     height: float = between(0.6, 1.4, "of the pipe", "m")
     piped: bool = chance(0.5, "tags on a pipe, not markers on stakes")
     count: int = whole(1, 3, "signs")
-    tags: tuple[float, ...] = each(number(0.12, 0.3), "length of a tag", "m", when=lambda p: p.piped)
-    stakes: tuple[_Stake, ...] = each(made(_Stake), "markers on stakes", when=lambda p: not p.piped)
+    tags: tuple[float, ...] = several(
+        number(0.12, 0.3), lambda p: p.count, "length of a tag", "m", when=lambda p: p.piped
+    )
+    stakes: tuple[_Stake, ...] = several(
+        made(_Stake), lambda p: p.count, "markers on stakes", when=lambda p: not p.piped
+    )
 
     def build(self, t: Table) -> Model:
         for k, stake in enumerate(self.stakes):

@@ -9,11 +9,8 @@ import numpy as np
 from cadgraph.model.scene import Floats
 from cadplants.builder.device import families_of
 from cadplants.builder.draws import made, number, of_form, yes
-from cadplants.builder.params import Params, among, between, chance, given, whole
+from cadplants.builder.params import Params, among, between, chance, given, several, whole
 from cadplants.builder.table import Table, outline
-from cadplants.families.steel.shape import (
-    each,
-)
 from cadplants.families.utilities.mounting import Utility, beam_over, h_column, pole, strut, wall
 from cadplants.family import Family, Model
 from cadplants.mesh_ops import extrude, merge, moved
@@ -75,7 +72,9 @@ class OnStruts(Utility, name="conduit/strut", weight=1.5):
     length: float = between(1.4, 3.0, "of the upper conduit", "m")
     height: float = between(1.6, 2.4, "of the upper conduit", "m")
     turned: bool = chance(0.7, "the conduits turn down")
-    runs: tuple[_Run, ...] = each(made(_Run, lambda p: {"many": p.count > 4, "turned": p.turned}), "conduits")
+    runs: tuple[_Run, ...] = several(
+        made(_Run, lambda p: {"many": p.count > 4, "turned": p.turned}), lambda p: p.count, "conduits"
+    )
     walled: bool = chance(0.5, "the struts are on a wall, not on columns")
 
     def build(self, t: Table) -> Model:
@@ -139,7 +138,7 @@ class Flexible(Utility, name="conduit/flexible", weight=1.2):
     height: float = between(0.5, 1.2, "of the box over the floor", "m")
     box: float = between(0.1, 0.2, "width of the box", "m")
     count: int = whole(1, 2, "corrugated conduits")
-    tails: tuple[_Tail, ...] = each(made(_Tail), "corrugated conduits")
+    tails: tuple[_Tail, ...] = several(made(_Tail), lambda p: p.count, "corrugated conduits")
 
     def build(self, t: Table) -> Model:
         r, h, s = self.radius, self.height, self.box
@@ -199,7 +198,7 @@ class Bodies(Utility, name="conduit/bodies", weight=1.5):
     radius: float = among(_SIZES[:3], "of the conduit", "m")
     length: float = between(1.6, 3.2, "of the conduit", "m")
     height: float = between(1.8, 2.6, "of the conduit", "m")
-    spots: tuple[_Spot, ...] = each(made(_Spot), "boxes in it", count=2)
+    spots: tuple[_Spot, ...] = several(made(_Spot), 2, "boxes in it")
 
     def build(self, t: Table) -> Model:
         r, length, z, n, last = self.radius, self.length, self.height, t.n(0.02, 6, 12), -0.1
@@ -240,13 +239,13 @@ class Hanging(Utility, name="cable/hanging", weight=1.2):
     length: float = between(2.0, 4.0, "from end to end", "m")
     height: float = between(2.0, 3.5, "of poles or rail", "m")
     poles: bool = chance(0.5, "it is on poles, not on a rail")
-    square: tuple[bool, ...] = each(yes(0.3), "whether a pole is square", count=2, when=_poles)
+    square: tuple[bool, ...] = several(yes(0.3), 2, "whether a pole is square", when=_poles)
     count: int = whole(2, 3, "cables between poles", when=_poles)
-    wires: tuple[_Wire, ...] = each(made(_Wire), "cables between poles", when=_poles)
+    wires: tuple[_Wire, ...] = several(made(_Wire), lambda p: p.count, "cables between poles", when=_poles)
     trolleys: int = whole(3, 6, "on the rail", when=_rail)
     radius: float = between(0.008, 0.016, "of the cables on a rail", "m", when=_rail)
-    depths: tuple[float, ...] = each(
-        number(0.5, 0.8), "depth of a loop / from trolley to trolley", count=lambda p: p.trolleys - 1, when=_rail
+    depths: tuple[float, ...] = several(
+        number(0.5, 0.8), lambda p: p.trolleys - 1, "depth of a loop / from trolley to trolley", when=_rail
     )
     lines: int = whole(1, 2, "cables on a rail", when=_rail)
 
@@ -298,9 +297,11 @@ class Coiled(Utility, name="cable/coiled", weight=1.2):
     )
     wide: float = between(0.3, 0.6, "of the drum", "m", when=_wound)
     count: int = whole(4, 8, "turns of the coil", when=_coil)
-    shifts: tuple[float, ...] = each(number(-1.5, 1.5), "how much wider a turn is / radius of the cable", when=_coil)
-    tilts: tuple[float, ...] = each(
-        number(-0.02, 0.02), "of a turn", "rad", count=lambda p: p.count - 1, when=of_form("floor")
+    shifts: tuple[float, ...] = several(
+        number(-1.5, 1.5), lambda p: p.count, "how much wider a turn is / radius of the cable", when=_coil
+    )
+    tilts: tuple[float, ...] = several(
+        number(-0.02, 0.02), lambda p: p.count - 1, "of a turn", "rad", when=of_form("floor")
     )
     height: float = between(1.2, 1.8, "of the hook", "m", when=of_form("hook"))
 

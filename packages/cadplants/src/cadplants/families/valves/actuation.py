@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cache
 from typing import Any
 
 import numpy as np
 
-from cadplants.builder.params import Params, among, between, chance, given, nested
+from cadplants.builder.draws import of_makes
+from cadplants.builder.params import Params, among, between, chance, nested
 from cadplants.builder.table import Table, outline
 from cadplants.families.valves.actuation_base import INDICATORS, QUARTERS, put_indicator, put_stem
 from cadplants.families.valves.actuation_gear import Bevel, Worm
 from cadplants.families.valves.actuation_hand import Handlever, Handwheel, cylinder_at, scaled, slab, span
-from cadplants.families.valves.drive import BODY, driven
+from cadplants.families.valves.drive import BODY, Scaled, driven
 from cadplants.mesh_ops import merge, moved
 from cadplants.polygon import circle, rounded_rectangle
 from cadplants.primitives import BOTH, along, box, cylinder, hexagon, rod, turned
@@ -280,26 +280,11 @@ def _fit(makes: tuple[str, ...], radius: float) -> list[str]:
     return ["lever" if radius < 0.022 and make in _LARGE else make for make in makes]
 
 
-class Operator(Params):
+class Operator(Scaled):
     """What turns a stem, on its pad on z = 0: a lever, a gear or an actuator."""
 
-    radius: float = given(0.05, "of the pipe, which it is scaled by", "m")
     make: str = among(lambda p: _fit(_ALL, p.radius), "what it is")
     form: Any = nested(lambda s, p: OPERATORS[p.make].draw(s), "its proportions")
-
-    def build(self, t: Table) -> None:
-        """Puts it down."""
-        self.form.build(t, self.radius)
-
-
-@cache
-def _operators(*makes: str) -> type[Operator]:
-    class Operators(Operator):
-        """Operators of some makes."""
-
-        make: str = among(lambda p: _fit(makes or _ALL, p.radius), "what it is")
-
-    return Operators
 
 
 def operator(
@@ -312,4 +297,4 @@ def operator(
         radius: that it is scaled by, from the fields before [m]; the pipe's if None.
         when: whether there is one, by the fields before.
     """
-    return driven(_operators(*makes), "what turns its stem", radius, when)
+    return driven(of_makes(Operator, makes or _ALL, _fit), "what turns its stem", radius, when)

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from functools import cache
 from typing import Any
 
 import numpy as np
 
 from cadgraph.model.scene import Floats
+from cadplants.builder.draws import of_makes
 from cadplants.builder.params import Params, among, between, chance, nested, weighted, whole
 from cadplants.builder.table import Table, outline
 from cadplants.mesh_ops import Solid, extrude, loft, merge, moved, revolve, sweep, weld
@@ -274,16 +274,9 @@ class Handwheel(Params):
         t.at(0, 0, z).add("handwheel", solid, turns=Turning(turns))
 
 
-@cache
 def wheels(*makes: str) -> type[Handwheel]:
     """Handwheels of these makes."""
-
-    class Wheels(Handwheel):
-        """A handwheel of some makes."""
-
-        make: str = among(makes, "how it is made")
-
-    return Wheels
+    return of_makes(Handwheel, makes)
 
 
 # --- levers, pointing along +x ---
@@ -463,13 +456,6 @@ class Handlever(Params):
         t.at(0, 0, z).add("lever", solid, turns=Turning("lever"))
 
 
-@cache
 def levers(*makes: str) -> type[Handlever]:
     """Levers of these makes."""
-
-    class Levers(Handlever):
-        """A lever of some makes."""
-
-        make: str = among(makes, "how it is made")
-
-    return Levers
+    return of_makes(Handlever, makes)

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cache
 from typing import Any
 
 import numpy as np
 
+from cadplants.builder.draws import of_makes
 from cadplants.builder.params import Params, among, between, chance, given, nested, weighted
 from cadplants.builder.table import Table, outline
 from cadplants.families.valves.actuation import OPERATORS, operator
@@ -313,16 +313,6 @@ class Linear(Params):
         t.add("actuator", *case, arm, rope(way, 0.003, 6), of="electrical")
 
 
-@cache
-def _linears(*makes: str) -> type[Linear]:
-    class Linears(Linear):
-        """Linear actuators of some makes."""
-
-        make: str = among(makes or tuple(STROKES), "what lifts the stem")
-
-    return Linears
-
-
 def linear_of(
     *makes: str, radius: Callable[[Any], float] | None = None, when: Callable[[Any], bool] | None = None
 ) -> Any:
@@ -333,12 +323,9 @@ def linear_of(
         radius: that it is scaled by, from the fields before [m]; the pipe's if None.
         when: whether there is one, by the fields before.
     """
-    return driven(_linears(*makes), "what lifts its stem", radius, when)
+    return driven(of_makes(Linear, makes or tuple(STROKES)), "what lifts its stem", radius, when)
 
 
 def screw_of(radius: Callable[[Any], float], when: Callable[[Any], bool] | None = None) -> Any:
     """A field for an outside screw and yoke whose handwheel has a radius, by the fields before [m]."""
     return driven(OutsideScrew, "outside screw and yoke", radius, when)
-
-
-# --- the same as finished parts ---

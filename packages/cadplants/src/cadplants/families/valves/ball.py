@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from cadplants.builder.device import families_of
+from cadplants.builder.draws import number
 from cadplants.builder.params import Params, among, between, chance, nested, several, styled
 from cadplants.builder.table import Table, outline
 from cadplants.families.valves.actuation import operator
@@ -355,9 +356,7 @@ def ferrule(dn: int, low: float, high: float, style: ModelingStyle, face: bool) 
 class ClampedEnds(Params):
     """The pipe's ferrules before and behind a sanitary valve, with their clamps."""
 
-    turns: tuple[float, ...] = several(
-        lambda rng, _: float(rng.uniform(0, 6)), lambda _: 2, "how far a clamp is turned, at the inlet first", "rad"
-    )
+    turns: tuple[float, ...] = several(number(0, 6), 2, "how far a clamp is turned, at the inlet first", "rad")
 
     def build(self, t: Table, dn: int, stub: float, length: float) -> None:
         """Puts them down for a nominal size; the valve's own faces lie ``stub`` inward [m]."""

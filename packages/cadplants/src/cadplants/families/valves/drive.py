@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cache
 from typing import Any
 
 import numpy as np
 
+from cadplants.builder.draws import of_makes
 from cadplants.builder.params import Params, among, between, chance, given, nested, weighted, whole
 from cadplants.builder.table import Table, outline
-from cadplants.family import Part
 from cadplants.mesh_ops import Solid, extrude, merge, moved, sweep
 from cadplants.modeling_style import ModelingStyle
 from cadplants.operator import actuator_solids, handwheel, lever_solid, plate_wheel, solid_wheel
@@ -21,17 +20,10 @@ from cadplants.standards import PIPES
 from cadplants.transforms import at, spun
 
 __all__ = [
-    "BODY", "DiaphragmHead", "Drive", "Wheel", "drive_of", "driven", "put_spindle", "stem",
-    "table_for", "wheel",
+    "BODY", "DiaphragmHead", "Drive", "Scaled", "Wheel", "drive_of", "driven", "put_spindle",
 ]  # fmt: skip
 
 BODY = "valve body"
-Rng = np.random.Generator
-
-
-def table_for(style: ModelingStyle) -> Table:
-    """A table for parts of valves."""
-    return Table(style, "Valve assembly", BODY)
 
 
 def put_spindle(t: Table, low: float, high: float, radius: float) -> None:
@@ -292,26 +284,23 @@ def _fit(makes: tuple[str, ...], radius: float) -> list[str]:
     return ["lever" if make in unfit else make for make in makes]
 
 
-class Drive(Params):
-    """What moves a valve, on the stem's collar on z = 0."""
+class Scaled(Params):
+    """What turns a stem, of one of some makes, as large as a pipe asks for."""
 
     radius: float = given(0.05, "of the pipe, which it is scaled by", "m")
-    make: str = among(lambda p: _fit(_QUARTER, p.radius), "what it is")
-    form: Any = nested(lambda s, p: _DRIVES[p.make].draw(s), "its proportions")
+    make: str
+    form: Any
 
     def build(self, t: Table) -> None:
-        """Puts it down."""
+        """Puts it down on its seat on z = 0."""
         self.form.build(t, self.radius)
 
 
-@cache
-def _drives(*makes: str) -> type[Drive]:
-    class Drives(Drive):
-        """Drives of some makes."""
+class Drive(Scaled):
+    """What moves a valve, on the stem's collar on z = 0."""
 
-        make: str = among(lambda p: _fit(makes or _QUARTER, p.radius), "what it is")
-
-    return Drives
+    make: str = among(lambda p: _fit(_QUARTER, p.radius), "what it is")
+    form: Any = nested(lambda s, p: _DRIVES[p.make].draw(s), "its proportions")
 
 
 def driven(
@@ -333,21 +322,4 @@ def drive_of(
         radius: that it is scaled by, from the fields before [m]; the pipe's if None.
         when: whether there is one, by the fields before.
     """
-    return driven(_drives(*makes), "what moves it", radius, when)
-
-
-# --- the same as finished parts ---
-
-
-def stem(low: float, high: float, radius: float, style: ModelingStyle, x: float = 0.0) -> Part:
-    """A stem about z at ``x`` [m]."""
-    t = table_for(style)
-    put_spindle(t.at(x), low, high, radius)
-    return t.parts[0]
-
-
-def wheel(radius: float, x: float, z: float, style: ModelingStyle, rng: Rng) -> Part:
-    """A handwheel about z with its hub on the height ``z`` [m]."""
-    t = table_for(style)
-    Wheel.draw(rng).build(t.at(x), radius, z)
-    return t.parts[0]
+    return driven(of_makes(Drive, makes or _QUARTER, _fit), "what moves it", radius, when)

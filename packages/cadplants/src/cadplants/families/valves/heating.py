@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from cadplants.builder.device import families_of
+from cadplants.builder.draws import number
 from cadplants.builder.params import Params, among, between, chance, nested, several, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.valves.base import (
@@ -31,7 +32,7 @@ class Rotary(Valve, name="mixing valve/rotary", sizes=SMALL):
     long: float = between(5.2, 6.4, _LONG)
     three: bool = chance(0.6, "three ways, not four")
     tails: tuple[float, ...] = several(
-        lambda rng, _: float(rng.uniform(0.08, 0.3)), lambda p: 1 if p.three else 2, "lengths of the pipes across", "m"
+        number(0.08, 0.3), lambda p: 1 if p.three else 2, "lengths of the pipes across", "m"
     )
     knob: bool = chance(0.5, "a knob on a scale rather than a servomotor")
     turn: float = between(0, 6, "where the knob points", "rad", when=lambda p: p.knob)

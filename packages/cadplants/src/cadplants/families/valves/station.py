@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from cadplants.builder.device import families_of
+from cadplants.builder.draws import made, number, yes
 from cadplants.builder.params import Params, among, between, chance, given, nested, several, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.valves.base import (
@@ -145,14 +146,12 @@ class Manifold(_Station, name="needle valve/manifold"):
     flanged: bool = chance(0.5, "square flanges for the instrument")
     ends: bool = chance(0.5, "the outer valves are on the block's ends", when=lambda p: p.count < 5)
     needles: tuple[_Needle, ...] = several(
-        lambda rng, p: _Needle.draw(rng, {"knob": "knob" if p.count == 5 else p.knob, "radius": p.core}),
+        made(_Needle, lambda p: {"knob": "knob" if p.count == 5 else p.knob, "radius": p.core}),
         lambda p: p.count,
         "headworks of the valves",
     )
     post: float = among((0.0302, 0.024), "radius of the pipe post", "m")
-    feet: tuple[float, ...] = several(
-        lambda rng, _: float(rng.uniform(0.1, 0.5)), lambda _: 2, "heights at which the tubes lead away", "m"
-    )
+    feet: tuple[float, ...] = several(number(0.1, 0.5), 2, "heights at which the tubes lead away", "m")
 
     def build(self, t: Table) -> Model:
         wide, tall, deep, up = 0.054 + 0.03 * self.count, self.tall, 0.032, t.at(0, 0, self.high)
@@ -195,7 +194,7 @@ class Panel(_Station, name="needle valve/panel", weight=0.7):
     count: int = whole(1, 3, "places for valves")
     high: float = between(1.0, 1.4, "height of the panel's middle", "m")
     tall: float = between(0.25, 0.5, "height of the panel", "m")
-    angular: tuple[bool, ...] = several(lambda rng, _: bool(rng.random() < 0.5), lambda _: 2, _SQUARE_POST)
+    angular: tuple[bool, ...] = several(yes(0.5), 2, _SQUARE_POST)
     core: float = between(0.008, 0.012, "radius of a valve", "m")
     knob: str = among(_KNOBS, _ABOUT_KNOB)
     spot: int = among(lambda p: tuple(range(p.count)), "which place has the valve")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from cadplants.builder.device import families_of
+from cadplants.builder.draws import made
 from cadplants.builder.params import Params, among, between, chance, nested, several, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.valves.base import (
@@ -187,7 +188,7 @@ class Breather(Valve, name="breather valve/pallet", place="head", sizes=sizes_be
 
     boxy: bool = chance(0.5, "the chest is a box, not a barrel")
     tall: float = between(0.7, 1.6, "height of the pressure chamber / radius of the chambers")
-    ends: tuple[_Pallet, ...] = several(lambda rng, _: _Pallet.draw(rng), lambda _: 2, "ends of the chambers")
+    ends: tuple[_Pallet, ...] = several(made(_Pallet), 2, "ends of the chambers")
 
     def build(self, t: Table) -> Model:
         r, w = t.pipe.radius, 1.5 * t.pipe.radius + 0.02

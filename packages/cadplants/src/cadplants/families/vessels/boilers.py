@@ -6,6 +6,7 @@ import numpy as np
 
 from cadgraph.model.scene import Floats
 from cadplants.builder.device import Device, families_of
+from cadplants.builder.draws import made
 from cadplants.builder.params import Params, among, between, chance, several, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.vessels.exchangers import equipment_mouth
@@ -99,7 +100,7 @@ class WallHung(_Boiler, name="boiler/wall-hung"):
     corner: float = between(0.005, 0.06, "radius of the cabinet's corners", "m")
     rise: float = between(0.1, 0.3, "of the flue over the cabinet", "m")
     count: int = whole(3, 5, "pipes below")
-    tails: tuple[Tail, ...] = several(lambda rng, _: Tail.draw(rng), lambda p: p.count, "the pipes below")
+    tails: tuple[Tail, ...] = several(made(Tail), lambda p: p.count, "the pipes below")
 
     def build(self, t: Table) -> Model:
         w, d, z, flue_r = self.width, self.depth, self.low, 0.05

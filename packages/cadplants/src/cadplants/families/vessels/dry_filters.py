@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from cadplants.builder.device import Device, families_of
+from cadplants.builder.draws import yes
 from cadplants.builder.params import between, chance, several, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.vessels.exchangers import equipment_mouth, frame_of
@@ -31,7 +32,7 @@ class AirBox(_Filter, name="filter/air box"):
     low: float = between(0.1, 0.8, "height of the case's underside", "m")
     pleated: bool = chance(0.5, "an open pleated face in place of the inlet's collar")
     rounds: tuple[bool, ...] = several(
-        lambda rng, _: bool(rng.random() < 0.5),
+        yes(0.5),
         lambda p: 1 if p.pleated else 2,
         "whether the collar is round rather than a square hood, inlet first",
     )

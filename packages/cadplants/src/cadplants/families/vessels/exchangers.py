@@ -8,6 +8,7 @@ import numpy as np
 
 from cadgraph.model.scene import Floats
 from cadplants.builder.device import Device, families_of
+from cadplants.builder.draws import made, one_of
 from cadplants.builder.params import among, between, chance, several
 from cadplants.builder.table import Table, outline
 from cadplants.families.valves.valve import bolt_circle
@@ -70,10 +71,8 @@ class Kettle(_Exchanger, name="heat exchanger/kettle"):
     narrow: float = between(0.5, 0.7, "radius of the bundle's flange / of the shell")
     slender: float = between(2.5, 4.0, "length of the shell / its radius")
     clear: float = between(0.3, 0.5, "from the floor to the shell", "m")
-    tops: tuple[int, ...] = several(
-        lambda rng, _: int(rng.choice([40, 50, 80])), lambda _: 2, "nominal sizes of the mouths on the shell", "mm"
-    )
-    saddles: tuple[Saddle, ...] = several(lambda rng, _: SADDLES["ribbed"].draw(rng), lambda _: 2, "saddles")
+    tops: tuple[int, ...] = several(one_of(40, 50, 80), 2, "nominal sizes of the mouths on the shell", "mm")
+    saddles: tuple[Saddle, ...] = several(made(SADDLES["ribbed"]), 2, "saddles")
 
     def build(self, t: Table) -> Model:
         r, small, n = self.radius, self.radius * self.narrow, sides(t.style, self.radius)

@@ -6,6 +6,7 @@ import numpy as np
 
 from cadgraph.model.scene import Floats
 from cadplants.builder.device import families_of
+from cadplants.builder.draws import made, number
 from cadplants.builder.params import Params, among, between, chance, nested, several, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.vessels.exchangers import frame_of
@@ -148,8 +149,7 @@ class Sectional(Tank, name="tank/sectional panels", weight=0.7):
                 walls += [moved(panel, at(x, -d / 2, z)), moved(panel, at(x, d / 2, z) @ spun("z", np.pi))]
             for y in ys:
                 walls += [moved(panel, at(s * w / 2, y, z) @ spun("z", s * half)) for s in BOTH]
-        for solids in [walls] if self.joined else [[one] for one in walls]:
-            t.add("shell", *solids, of="dial")
+        t.add_each("shell", walls, joined=self.joined, of="dial")
         roof = [moved(panel, at(x, y, base + h) @ spun("x", -half)) for x in xs for y in ys]
         t.add("shell", *roof, of="dial")
         posts = [box((0.06, 0.06, h), (sx * w / 2, sy * d / 2, base + h / 2)) for sx in BOTH for sy in BOTH]
@@ -174,7 +174,7 @@ class Drums(Tank, name="tank/drums", weight=0.9):
     count: int = whole(1, 4, "drums", when=lambda p: not p.lying, otherwise=1)
     base: float = among((0.0, 0.144, 0.3), "height of the pallet", "m", when=lambda p: not p.lying, otherwise=0.0)
     turns: tuple[float, ...] = several(
-        lambda rng, _: float(rng.uniform(0, 6)),
+        number(0, 6),
         lambda p: p.count,
         "how each is turned",
         "rad",
@@ -308,7 +308,7 @@ class Buried(Tank, name="tank/buried", weight=0.7):
     ends: str = among(("torispherical", "shallow", "2:1"), "heads at its ends")
     straps: int = whole(2, 3, "straps")
     spots: int = among((1, 2), "towers", when=lambda p: _length(p.radius, p.slender) > 2, otherwise=1)
-    towers: tuple[_Tower, ...] = several(lambda rng, _: _Tower.draw(rng), lambda p: p.spots, "towers")
+    towers: tuple[_Tower, ...] = several(made(_Tower), lambda p: p.spots, "towers")
 
     def build(self, t: Table) -> Model:
         r, n, length = self.radius, sides(t.style, self.radius), _length(self.radius, self.slender)

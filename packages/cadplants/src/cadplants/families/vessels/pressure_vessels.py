@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from cadplants.builder.device import families_of
+from cadplants.builder.draws import made, one_of
 from cadplants.builder.params import Params, among, between, chance, nested, several, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.vessels.vessel import Tank, apart
@@ -71,7 +72,7 @@ class Reactor(Tank, name="tank/stirred reactor", weight=1.2):
     agitator: _Agitator = nested(_Agitator, "agitator")
     count: int = whole(2, 4, "nozzles on top")
     nozzles: tuple[int, ...] = several(
-        lambda rng, _: int(rng.choice([25, 40, 50])), lambda p: p.count, "nominal sizes of the nozzles on top", "mm"
+        one_of(25, 40, 50), lambda p: p.count, "nominal sizes of the nozzles on top", "mm"
     )
     manway: Manway = nested(MANWAYS["swing"], "manway on top", when=lambda p: p.radius > 0.55)
     feet: str = among(("pipe", "bracket", "beam"), "what it stands on")
@@ -161,10 +162,8 @@ class Bullet(Tank, name="tank/bullet", weight=0.7):
     radius: float = between(0.5, 0.95, "of the shell", "m")
     slender: float = between(3.0, 4.4, "length of the shell / its radius")
     clear: float = between(0.5, 0.9, "from the floor to the shell", "m")
-    saddles: tuple[Saddle, ...] = several(lambda rng, _: SADDLES["ribbed"].draw(rng), lambda _: 2, "saddles")
-    nozzles: tuple[int, ...] = several(
-        lambda rng, _: int(rng.choice([40, 50])), lambda _: 3, "nominal sizes of the nozzles on top", "mm"
-    )
+    saddles: tuple[Saddle, ...] = several(made(SADDLES["ribbed"]), 2, "saddles")
+    nozzles: tuple[int, ...] = several(one_of(40, 50), 3, "nominal sizes of the nozzles on top", "mm")
 
     def build(self, t: Table) -> Model:
         r, length = self.radius, self.slender * self.radius
@@ -244,7 +243,7 @@ class Receiver(Tank, name="tank/air receiver"):
     )
     handhole: Manway = nested(MANWAYS["oval"], "handhole")
     count: int = whole(3, 5, "sockets on the side")
-    sockets: tuple[_Socket, ...] = several(lambda rng, _: _Socket.draw(rng), lambda p: p.count, "sockets on the side")
+    sockets: tuple[_Socket, ...] = several(made(_Socket), lambda p: p.count, "sockets on the side")
 
     def build(self, t: Table) -> Model:
         r, n, height = self.radius, sides(t.style, self.radius), self.radius * self.slender

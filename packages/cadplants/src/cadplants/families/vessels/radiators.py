@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from cadplants.builder.device import families_of
+from cadplants.builder.draws import one_of
 from cadplants.builder.params import among, between, chance, several, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.vessels.exchangers import Equipment, equipment_mouth
@@ -263,9 +264,7 @@ class CoolingTower(_Exchanger, name="heat exchanger/cooling tower"):
     low: float = between(0.2, 0.5, "from the floor to the basin", "m")
     bottle: bool = chance(0.5, "it is round, not square")
     blades: int = among((4, 6), "blades of the fan")
-    mouths: tuple[int, ...] = several(
-        lambda rng, _: int(rng.choice([50, 65, 80])), lambda _: 2, "nominal sizes of the mouths, the upper first", "mm"
-    )
+    mouths: tuple[int, ...] = several(one_of(50, 65, 80), 2, "nominal sizes of the mouths, the upper first", "mm")
 
     def build(self, t: Table) -> Model:
         r, low, h, fan = self.radius, self.low, self.radius * self.slender, 0.5 * self.radius

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from cadplants.builder.device import families_of
+from cadplants.builder.draws import made
 from cadplants.builder.params import among, between, chance, nested, several, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.valves.valve import bolt_circle, flanged_body
@@ -86,7 +87,7 @@ class ThreePhase(_Separator, name="separator/three-phase"):
     slender: float = between(3.4, 5.5, "length of the shell / its radius")
     deep: float = between(0.7, 1.1, "depth of the boot / radius of the shell")
     domed: bool = chance(0.6, "a gas dome")
-    saddles: tuple[Saddle, ...] = several(lambda rng, _: SADDLES["ribbed"].draw(rng), lambda _: 2, "saddles")
+    saddles: tuple[Saddle, ...] = several(made(SADDLES["ribbed"]), 2, "saddles")
     size: int = among(lambda p: _sizes((40, 50, 80, 100), 0.8 * p.radius), "nominal size of its mouths", "mm")
 
     def build(self, t: Table) -> Model:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from cadplants.builder.device import families_of
+from cadplants.builder.draws import made
 from cadplants.builder.params import Params, among, between, chance, given, nested, several, spread, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.vessels.vessel import Tank, apart
@@ -72,7 +73,7 @@ class _Fittings(Params):
 
     manned: bool = given(True, "whether it has a manway")
     count: int = whole(1, 3, "nozzles")
-    low: tuple[_Low, ...] = several(lambda rng, _: _Low.draw(rng), lambda p: min(p.count, 2), "nozzles")
+    low: tuple[_Low, ...] = several(made(_Low), lambda p: min(p.count, 2), "nozzles")
     high: _High = nested(_High, "a nozzle near the upper rim", when=lambda p: p.count == 3)
     closure: str = among(("hinged", "davit"), "what holds the manway's cover", when=lambda p: p.manned, otherwise="")
     manway: Manway = nested(lambda s, p: MANWAYS[p.closure].draw(s), "manway", when=lambda p: p.manned)
@@ -397,9 +398,7 @@ class Moulded(Tank, name="tank/moulded plastic"):
     shoulder: float = between(0.1, 0.4, "height of the shoulder / radius of the shell")
     lid: Manway = nested(MANWAYS["lid"], "screw lid")
     count: int = whole(1, 2, "nozzles, the first below")
-    nozzles: tuple[_Bulkhead, ...] = several(
-        lambda rng, _: _Bulkhead.draw(rng), lambda p: p.count, "nozzles, the first below"
-    )
+    nozzles: tuple[_Bulkhead, ...] = several(made(_Bulkhead), lambda p: p.count, "nozzles, the first below")
     tied: bool = chance(0.4, "eyes to tie it down")
     bunded: bool = chance(0.3, "it stands in a bund")
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from cadplants.builder.device import Device, families_of
+from cadplants.builder.draws import made
 from cadplants.builder.params import Params, among, between, chance, nested, several, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.valves.valve import bolt_circle, disc_flange
@@ -139,7 +140,7 @@ class _Upright(Tank):
     legs: int = among((3, 4), "legs", when=lambda p: p.feet == "legs", otherwise=0)
     section: str = among(("pipe", "angle", "tube"), "of the legs", when=lambda p: p.feet == "legs", otherwise="")
     count: int = whole(1, 3, "nozzles on the side")
-    nozzles: tuple[_Nozzle, ...] = several(lambda rng, _: _Nozzle.draw(rng), lambda p: p.count, "nozzles on the side")
+    nozzles: tuple[_Nozzle, ...] = several(made(_Nozzle), lambda p: p.count, "nozzles on the side")
     topped: bool = chance(0.7, "a nozzle on top")
     manned: bool = chance(0.6, "a manway", when=lambda p: p.radius > 0.5)
     lugs: bool = chance(0.5, "lifting lugs")

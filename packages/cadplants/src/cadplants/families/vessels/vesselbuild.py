@@ -8,6 +8,7 @@ import numpy as np
 
 from cadgraph.model.scene import Floats
 from cadplants.builder.device import families_of
+from cadplants.builder.draws import made
 from cadplants.builder.params import Params, among, between, chance, given, nested, several, spread, whole
 from cadplants.builder.table import Table
 from cadplants.families.valves.valve import bolt_circle
@@ -99,7 +100,7 @@ class _Upright(Tank, weight=0.7):
     count: int = whole(1, 3, "nozzles on the side")
     first: _Nozzle = nested(_Nozzle, "first nozzle on the side", fixed=lambda p: {"room": p.radius})
     others: tuple[_Further, ...] = several(
-        lambda rng, p: _Further.draw(rng, {"room": p.radius}), lambda p: p.count - 1, "further nozzles on the side"
+        made(_Further, lambda p: {"room": p.radius}), lambda p: p.count - 1, "further nozzles on the side"
     )
     topped: bool = chance(0.75, "a nozzle on top, wherever it needn't have one")
     top: int = among(
@@ -227,7 +228,7 @@ class _Lying(Tank, weight=0.7):
     opening: float = between(0.22, 0.3, "radius of the manway's neck", "m", when=lambda p: p.closure != "none")
     manway: Manway = nested(lambda s, p: MANWAYS[p.closure].draw(s), "manway", when=lambda p: p.closure != "none")
     nozzles: tuple[_TopNozzle, ...] = several(
-        lambda rng, p: _TopNozzle.draw(rng, {"room": 0.8 * p.radius}),
+        made(_TopNozzle, lambda p: {"room": 0.8 * p.radius}),
         lambda p: p.count - (p.closure != "none"),
         "nozzles on top",
     )
@@ -331,7 +332,7 @@ class Hygienic(Tank, name="nozzle/clamp ferrule", weight=0.7):
     legs: Feet = nested(FEET["pipe"], "legs")
     drain: int = among((25, 40, 50), "nominal size of the ferrule below", "mm")
     count: int = whole(3, 6, "ferrules on the side")
-    ferrules: tuple[_Ferrule, ...] = several(lambda rng, _: _Ferrule.draw(rng), lambda p: p.count, "ferrules")
+    ferrules: tuple[_Ferrule, ...] = several(made(_Ferrule), lambda p: p.count, "ferrules")
     manway: Manway = nested(MANWAYS["swing"], "manway on top")
     sleeved: bool = chance(0.6, "a sleeve round the shell")
 
