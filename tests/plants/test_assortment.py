@@ -1,4 +1,5 @@
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
@@ -6,6 +7,7 @@ import pytest
 from cadgraph.model.vocabulary import default_vocabulary
 from cadplants import STYLES, make
 from cadplants.assortment import FAMILIES, draw_modeling_style, make_assortment
+from cadplants.taste import Taste
 from cadplants.truth_writer import truth_of
 
 pytestmark = pytest.mark.slow
@@ -58,6 +60,32 @@ def test_one_seed_makes_one_plant():
     for a, b in zip(first.components, second.components, strict=True):
         np.testing.assert_array_equal(a.vertices, b.vertices)
         np.testing.assert_array_equal(a.faces, b.faces)
+
+
+def test_what_a_plant_has_more_changes_nothing_of_the_rest():
+    few, many = (make_assortment(2, PLAIN, taste=Taste(meshes=(most, most + 1))) for most in (60, 200))
+    assert few.n_meshes < many.n_meshes
+    for a, b in zip(few.components, many.components, strict=False):
+        assert (a.name, a.family) == (b.name, b.family)
+        np.testing.assert_array_equal(a.vertices, b.vertices)
+
+
+def test_what_a_device_draws_more_changes_nothing_of_the_rest(monkeypatch):
+    plain = make_assortment(2, PLAIN)
+    changed = {c.family for c in plain.components} & set(FAMILIES)
+
+    def build_after_more_draws(family, dn, style, source, *height):
+        source.rng.random(5)
+        return family.build(dn, style, source, *height)
+
+    for name in changed:
+        monkeypatch.setitem(
+            FAMILIES, name, replace(FAMILIES[name], build=partial(build_after_more_draws, FAMILIES[name]))
+        )
+    other = make_assortment(2, PLAIN)
+    assert changed
+    for a, b in zip(plain.components, other.components, strict=True):
+        np.testing.assert_array_equal(a.vertices, b.vertices)
 
 
 def test_seeds_differ(plants):

@@ -16,6 +16,7 @@ import numpy as np
 
 from cadgraph.geometry.components import connected_sets
 from cadgraph.model.scene import Floats
+from cadplants.builder.params import Apart, Source
 from cadplants.defects import loosen
 from cadplants.drawn_styles import draw_modeling_style
 from cadplants.families import FAMILIES
@@ -42,7 +43,7 @@ _LOWEST, _HIGHEST = 0.45, 3.2  # m, of a line's axis
 _ROOM = 8.0  # m between things on the floor: their lines stay clear of each other
 _MESHES, _MOST = (90, 280), 24  # a plant is full at a number of meshes without fasteners, or has so many things
 _NARROWING = ("reducer/bare cone",)  # families of single reducers whose two ends are on one axis
-_STYLES = 3  # at most, of a plant whose taste is given
+_FOREIGN = 2  # other styles at most, of a plant whose taste is given
 _FASTENERS = ("bolt", "nut", "washer", "stud", "screw")
 _LIDS = frozenset({"pipe cap", "blind flange"})
 _GROUND = 0.3  # share of plants that stand on a slab
@@ -71,14 +72,16 @@ def make_assortment(
         ValueError: ``without`` names a family that there is not.
     """
     _check_names(without)
-    rng = np.random.default_rng([seed, 20])
+    source = Apart(seed, 20)
     if taste is None and style is not None and style.devices == "primitives":
         taste = OF_PRIMITIVES
-    work = _Draw(rng, style, draw_modeling_style(rng, "drawn-1") if style is None else style, without, taste)
+    main = draw_modeling_style(source.of("style").rng, "drawn-1") if style is None else style
+    plant = _Draw(source, _Whole(source, style, main, without, taste))
     parts: list[Assembly] = []
-    budget = int(rng.integers(*(_MESHES if taste is None else taste.meshes)))
+    budget = int(plant.rng.integers(*(_MESHES if taste is None else taste.meshes)))
     lines = 0
     for k in range(_MOST):
+        work = plant.of(f"thing {k}")
         style = work.style()
         if k % 4 == 0:
             one = _line(work, style, f"L{lines + 1}", _LANE * lines)
@@ -86,20 +89,24 @@ def make_assortment(
         else:
             j = k - lines
             place = at(_ROOM * (j % 4), -4.0 - _ROOM * (j // 4)) @ spun(
-                "z", float(rng.choice([0, 0.5, 1, 1.5])) * np.pi
+                "z", float(work.rng.choice([0, 0.5, 1, 1.5])) * np.pi
             )
             one = _stand(work, style, f"S{j + 1}").placed(place)
         parts.append(_finished(one, style, seed + 1000 * k))
         budget -= sum(c.name not in _FASTENERS for c in one.components)
         if budget < 0 and k > 1:
             break
-    if work.rng.random() < _GROUND:
-        parts.append(_ground(gather(parts), work.main))
+    if plant.of("ground").rng.random() < _GROUND:
+        parts.append(_ground(gather(parts), main))
     whole = gather(parts)
     given: dict[str, Any] = {one.name: getattr(whole, one.name) for one in fields(whole)}
-    looseness = max(style.looseness for style in work.used)
+    looseness = max(style.looseness for style in plant.whole.used)
     return Plant(
-        **given, name="assortment", seed=seed, styles=tuple(style.name for style in work.used), looseness=looseness
+        **given,
+        name="assortment",
+        seed=seed,
+        styles=tuple(style.name for style in plant.whole.used),
+        looseness=looseness,
     )
 
 
@@ -109,71 +116,97 @@ def _check_names(without: frozenset[str]) -> None:
         raise ValueError(f"there is no family {name!r}; see ALL_FAMILIES for their names")
 
 
-class _Draw:
-    """Draws families, sizes and styles for one plant."""
+class _Whole:
+    """What all draws of one plant share: its styles, its families, how many units it has."""
 
     def __init__(
         self,
-        rng: np.random.Generator,
+        source: Apart,
         fixed: ModelingStyle | None,
-        style: ModelingStyle,
+        main: ModelingStyle,
         without: frozenset[str],
         taste: Taste | None,
     ) -> None:
-        self.rng, self.fixed, self.main, self.taste = rng, fixed, style, taste
-        self.used = [style]
+        self.fixed, self.main, self.taste = fixed, main, taste
+        self.used = [main]
         self.count = 0
+        self._source, self._others = source, dict[str, ModelingStyle]()
         self.families: dict[str, list[Family]] = {}
         for family in (FAMILIES if taste is None else ALL_FAMILIES).values():
             if family.name not in without and family.name.split("/")[0] not in without:
                 self.families.setdefault(family.place, []).append(family)
 
+    def other(self, which: str) -> ModelingStyle:
+        """A style other than the main one; of the same name, the same."""
+        if which not in self._others:
+            style = draw_modeling_style(self._source.of(f"style {which}").rng, f"drawn-{len(self.used) + 1}")
+            self._others[which] = style
+            self.used.append(style)
+        return self._others[which]
+
+
+class _Draw:
+    """Draws families, sizes and styles for one part of a plant, from a stream of its own: what is drawn more or less
+    elsewhere changes nothing here.
+
+    Args:
+        source: of this part.
+        whole: what it shares with the others.
+    """
+
+    def __init__(self, source: Source, whole: _Whole) -> None:
+        self.source, self.whole = source, whole
+        self.rng = source.rng
+
+    def of(self, name: str) -> _Draw:
+        """What draws a part of this part."""
+        return _Draw(self.source.of(name), self.whole)
+
     def style(self) -> ModelingStyle:
         """The plant's style, or in a third of the cases another one."""
-        if self.fixed is not None or self.rng.random() < 0.65:
-            return self.main
-        self.used.append(draw_modeling_style(self.rng, f"drawn-{len(self.used) + 1}"))
-        return self.used[-1]
+        if self.whole.fixed is not None or self.rng.random() < 0.65:
+            return self.whole.main
+        return self.whole.other(str(self.rng.integers(_MOST)))
 
     def grained(self, style: ModelingStyle) -> ModelingStyle:
         """The style with a granularity of its own for one device; a given style keeps its own."""
-        if self.taste is not None:
-            if self.rng.random() < self.taste.foreign:
-                return self._foreign()
-            if self.rng.random() >= self.taste.mixed:
+        taste = self.whole.taste
+        if taste is not None:
+            if self.rng.random() < taste.foreign:
+                return self.whole.other(str(self.rng.integers(_FOREIGN)))
+            if self.rng.random() >= taste.mixed:
                 return style
-        elif self.fixed is not None or self.rng.random() < 0.5:
+        elif self.whole.fixed is not None or self.rng.random() < 0.5:
             return style
         grains: tuple[Grain, ...] = ("one", "few", "pieces")
         grain = grains[int(self.rng.integers(3))]
         return replace(style, valve=grain, gauge=grain, pump=grain, tank=grain, equipment=grain, structure=grain)
 
-    def _foreign(self) -> ModelingStyle:
-        """Another style, of which a plant has two at most."""
-        if len(self.used) < _STYLES:
-            self.used.append(draw_modeling_style(self.rng, f"drawn-{len(self.used) + 1}"))
-        return self.used[int(self.rng.integers(1, len(self.used)))]
-
     def family(self, place: str, dn: int = 0) -> Family | None:
         """One family for a place, made in this size; None where all are left out."""
-        some = [f for f in self.families.get(place, []) if not dn or dn in f.sizes]
+        some = [f for f in self.whole.families.get(place, []) if not dn or dn in f.sizes]
         if not some:
             return None
-        weights = np.array([f.weight for f in some]) if self.taste is None else self.taste.weights(some)
+        taste = self.whole.taste
+        weights = np.array([f.weight for f in some]) if taste is None else taste.weights(some)
         if not weights.sum():
             return None
         return some[int(self.rng.choice(len(some), p=weights / weights.sum()))]
 
+    def model(self, family: Family, dn: int, style: ModelingStyle, *height: float) -> Model | Device | Assembly:
+        """A device of a family."""
+        return family.build(dn, style, self.source.of(family.name), *height)
+
     def unit(self, family: Family) -> str:
         """An id for a device's unit."""
-        self.count += 1
-        return f"{family.unit[:1].upper()}-{self.count}" if family.unit else ""
+        self.whole.count += 1
+        return f"{family.unit[:1].upper()}-{self.whole.count}" if family.unit else ""
 
     def dn(self) -> int:
         """A nominal size, small ones more often."""
         weights = _DN_WEIGHTS
-        if self.taste is not None:
-            least, most = self.taste.sizes
+        if self.whole.taste is not None:
+            least, most = self.whole.taste.sizes
             weights = weights * [least <= size <= most for size in SIZES]
         return int(self.rng.choice(SIZES, p=weights / weights.sum()))
 
@@ -227,7 +260,7 @@ def _line(work: _Draw, style: ModelingStyle, tag: str, lane: float) -> Assembly:
     for k, direction in enumerate(directions):
         before = tangents[k - 1] if k else flange_length(dn, style) + 0.05
         after = tangents[k] if k < len(tangents) else flange_length(dn, style) + 0.05
-        leg = _leg(work, style, dn, s + before, abs(float(direction[2])) < 0.1)
+        leg = _leg(work.of(f"leg {k}"), style, dn, s + before, abs(float(direction[2])) < 0.1)
         length = before + leg.length + after
         points.append(points[-1] + length * direction)
         inline += leg.items
@@ -267,30 +300,33 @@ def _directions(rng: np.random.Generator, count: int) -> list[Floats]:
 
 def _leg(work: _Draw, style: ModelingStyle, dn: int, start: float, level: bool) -> _Leg:
     """Some devices in a row with pipe between them."""
-    rng = work.rng
     items: list[Inline] = []
     taps: list[Tap] = []
-    x = float(rng.uniform(0.08, 0.4))
-    for _ in range(int(rng.integers(1, 4))):
-        pipe = float(rng.choice([0.12, 0.25, 0.5])) * float(rng.uniform(0.8, 1.6))
-        if rng.random() < 0.45 and level and pipe > 0.2 and (family := work.family("tap")) is not None:
-            taps.append(_tap_of(work, style, family, dn, start + x + pipe / 2))
+    x = float(work.rng.uniform(0.08, 0.4))
+    for k in range(int(work.rng.integers(1, 4))):
+        here = work.of(f"item {k}")
+        pipe = float(here.rng.choice([0.12, 0.25, 0.5])) * float(here.rng.uniform(0.8, 1.6))
+        if here.rng.random() < 0.45 and level and pipe > 0.2:
+            taps += _taps(here.of("tap"), style, dn, start + x + pipe / 2)
         x += pipe
-        item, length = _item(work, style, dn, start + x)
+        item, length = _item(here, style, dn, start + x)
         items.append(item)
         x += length
         if item.dn:
-            narrow, length = _narrowed(work, style, dn, item, start + x, length)
+            narrow, length = _narrowed(here.of("narrowed"), style, dn, item, start + x, length)
             items += narrow
             x += length
-    return _Leg(tuple(items), tuple(taps), x + float(rng.uniform(0.15, 0.9)))
+    return _Leg(tuple(items), tuple(taps), x + float(work.rng.uniform(0.15, 0.9)))
 
 
-def _tap_of(work: _Draw, style: ModelingStyle, family: Family, dn: int, s: float) -> Tap:
-    own = work.grained(style)
-    unit = work.unit(family)
-    assembly = as_assembly(family, family.build(dn, own, work.rng), own, unit)
-    return Tap(s, partial(_given, assembly), unit)
+def _taps(work: _Draw, style: ModelingStyle, dn: int, s: float) -> list[Tap]:
+    """What stands on a pipe there; nothing where all that could are left out."""
+    family = work.family("tap")
+    if family is None:
+        return []
+    own, unit = work.grained(style), work.unit(family)
+    assembly = as_assembly(family, work.model(family, dn, own), own, unit)
+    return [Tap(s, partial(_given, assembly), unit)]
 
 
 def _given(made: _Made, _: ModelingStyle) -> _Made:
@@ -308,14 +344,13 @@ def _item(work: _Draw, style: ModelingStyle, dn: int, low: float) -> tuple[Inlin
         return Inline(low + length / 2), length
     own = work.grained(style)
     unit = work.unit(family)
-    model = family.build(dn, own, rng)
+    model = work.model(family, dn, own)
     device = as_device(family, model, own, unit)
     welded = family.welded or (isinstance(model, Model) and model.joint == "welded")
     length = device.length + (0.0 if welded else 2 * (neck + pad))
     roll = float(rng.choice([0.0, 0.0, 0.0, 0.5, -0.5, 1.0])) * np.pi
     build: Callable[[ModelingStyle], Device] = partial(_given, device)
-    # A line of the default taste goes on as wide as before: its plants stay as they are.
-    behind = model.dn if isinstance(model, Model) and work.taste is not None and family.name in _NARROWING else 0
+    behind = model.dn if isinstance(model, Model) and family.name in _NARROWING else 0
     return Inline(low + length / 2, build, unit, roll, welded=welded, dn=behind), length
 
 
@@ -328,7 +363,7 @@ def _narrowed(
     rng, items = work.rng, []
     x = float(rng.uniform(0.15, 0.5))
     if rng.random() < 0.6:
-        item, more = _item(work, style, reducer.dn, low + x)
+        item, more = _item(work.of("device"), style, reducer.dn, low + x)
         items.append(replace(item, dn=0))
         x += more + float(rng.uniform(0.15, 0.5))
     back = Inline(low + x + length / 2, reducer.build, reverse=True, welded=True, dn=dn)
@@ -355,12 +390,13 @@ def _endings(work: _Draw, style: ModelingStyle, run: Run) -> list[tuple[int, lis
     """What stands at the ends (0 or 1) of a line: caps, bends and hoses on pipes; valves and lids on flanges."""
     found = []
     for which, s in ((0, 0.0), (1, run.route.length)):
+        here = work.of(f"end {which}")
         frame = run.route.frame(s) if which else run.route.frame(s) @ spun("z", np.pi)
         dn = run.dn_at(s)
-        if work.rng.random() < 0.3 or run.ends[which] not in ("open", "flange"):
+        if here.rng.random() < 0.3 or run.ends[which] not in ("open", "flange"):
             continue
         build = _pipe_end if run.ends[which] == "open" else _flange_end
-        found.append((which, build(work, style, dn, frame)))
+        found.append((which, build(here, style, dn, frame)))
     return found
 
 
@@ -369,7 +405,7 @@ def _pipe_end(work: _Draw, style: ModelingStyle, dn: int, frame: Floats) -> list
     if family is None or work.rng.random() < 0.25:
         return [cap(dn, style).placed(frame)]
     own = work.grained(style)
-    return [as_assembly(family, family.build(dn, own, work.rng), own).placed(frame)]
+    return [as_assembly(family, work.model(family, dn, own), own).placed(frame)]
 
 
 def _flange_end(work: _Draw, style: ModelingStyle, dn: int, frame: Floats) -> list[Assembly]:
@@ -389,29 +425,36 @@ def _flange_end(work: _Draw, style: ModelingStyle, dn: int, frame: Floats) -> li
         frame = start @ at(neck + radius, radius) @ spun("z", np.pi / 2) @ at(neck)
         parts.append(flange(dn, style).placed(frame @ spun("z", np.pi)))
         parts += [gasket(dn, style).placed(frame), bolts(dn, 2 * plate + pad, style).placed(frame @ at(-plate))]
-    model = family.build(dn, own, work.rng)
+    model = work.model(family, dn, own)
     roll = spun("x", float(work.rng.uniform(0, 2 * np.pi)))
     return [*parts, as_assembly(family, model, own, unit).placed(frame @ at(pad) @ roll)]
 
 
 def _supports(work: _Draw, style: ModelingStyle, laid: Laid) -> list[Assembly]:
     """What carries the level pipes of a line: from the ground up, or from a beam above."""
-    rng, parts = work.rng, []
+    parts = []
     run = laid.run
     taken = [tap.s for tap in run.taps]
-    for piece in laid.pieces:
+    for k, piece in enumerate(laid.pieces):
+        here = work.of(f"support {k}")
         middle = (piece.low + piece.high) / 2
         frame = run.route.frame(middle)
         straight = run.route.leg(piece.low + 1e-6) == run.route.leg(piece.high - 1e-6)
         clear = all(abs(s - middle) > 0.12 for s in taken)
-        if not straight or abs(frame[2, 0]) > 0.01 or piece.high - piece.low < 0.25 or not clear or rng.random() < 0.4:
+        if (
+            not straight
+            or abs(frame[2, 0]) > 0.01
+            or piece.high - piece.low < 0.25
+            or not clear
+            or here.rng.random() < 0.4
+        ):
             continue
         dn = run.dn_at(middle)
-        family = work.family("carrier", dn)
+        family = here.family("carrier", dn)
         if family is None:
             continue
-        own = work.grained(style)
-        model = family.build(dn, own, rng, float(frame[2, 3]))
+        own = here.grained(style)
+        model = here.model(family, dn, own, float(frame[2, 3]))
         parts.append(as_assembly(family, model, own).placed(frame))
     return parts
 
@@ -450,12 +493,13 @@ def _stand(work: _Draw, style: ModelingStyle, cluster: str) -> Assembly:
     if family is None:
         return Assembly()
     own, unit = work.grained(style), work.unit(family)
-    model = family.build(int(work.rng.choice(family.sizes)), own, work.rng)
+    model = work.model(family, int(work.rng.choice(family.sizes)), own)
     parts = [as_assembly(family, model, own, unit)]
     ports = model.ports if isinstance(model, Model) else ()
     for k, port in enumerate(ports):
-        if work.rng.random() < 0.8:
-            parts.append(_stub_line(work, style, f"{cluster}-{k + 1}", port.frame, port.dn, unit))
+        here = work.of(f"port {k}")
+        if here.rng.random() < 0.8:
+            parts.append(_stub_line(here, style, f"{cluster}-{k + 1}", port.frame, port.dn, unit))
     whole = gather(parts)
     return (_spooled(whole) if style.merged else whole).marked(cluster=cluster)
 
@@ -465,7 +509,7 @@ def _stub_line(work: _Draw, style: ModelingStyle, tag: str, frame: Floats, dn: i
     rng = work.rng
     start, out = frame[:3, 3], frame[:3, 0]
     neck = flange_length(dn, style) + GASKET + 0.05
-    leg = _leg(work, style, dn, neck, abs(float(out[2])) < 0.1)
+    leg = _leg(work.of("leg"), style, dn, neck, abs(float(out[2])) < 0.1)
     points = [start, start + out * (neck + leg.length + ELBOW_LONG_RADIUS[dn])]
     if rng.random() < 0.6:
         up = np.array([0.0, 0.0, 1.0]) if abs(out[2]) < 0.5 else looking((0, 0, 0), out)[:3, 1]

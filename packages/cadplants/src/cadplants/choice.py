@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from cadplants.brand import Brand
+from cadplants.builder.params import Apart
 from cadplants.contacts import whole
 from cadplants.detail import Marks, marked_gauge
 from cadplants.families import FAMILIES
@@ -78,7 +79,7 @@ class Choice:
 
         def build(style: ModelingStyle) -> Device:
             def draw(number: int) -> Device:
-                return as_device(family, family.build(dn, style, np.random.default_rng([seed, number])), style, unit)
+                return as_device(family, family.build(dn, style, Apart(seed, number)), style, unit)
 
             if style.devices == "primitives":
                 return in_primitives(draw(0), dn, style)
@@ -98,11 +99,7 @@ class Choice:
         family = FAMILIES["relief valve/threaded"]
 
         def build(style: ModelingStyle) -> Assembly:
-            return whole(
-                lambda number: as_assembly(
-                    family, family.build(15, style, np.random.default_rng([seed, number])), style, unit
-                )
-            )
+            return whole(lambda number: as_assembly(family, family.build(15, style, Apart(seed, number)), style, unit))
 
         return Tap(s, build, unit)
 

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from cadplants.access import platform, platform_with_stairs
+from cadplants.builder.params import Apart
 from cadplants.contacts import met, whole
 from cadplants.electrical import cabinet, lamp, sign
 from cadplants.enclosure import fence, pillar
@@ -150,9 +151,7 @@ def _ladder(style: ModelingStyle, rng: np.random.Generator) -> Assembly:
     """A caged ladder that stands by itself beside the tank."""
     family = FAMILIES["ladder/cage"]
     seed = int(rng.integers(1000))
-    return whole(
-        lambda number: as_assembly(family, family.build(0, style, np.random.default_rng([seed, number])), style)
-    )
+    return whole(lambda number: as_assembly(family, family.build(0, style, Apart(seed, number)), style))
 
 
 def _yard(style: ModelingStyle, flips: tuple[int, int]) -> list[Assembly]:
