@@ -84,7 +84,7 @@ class Based(
     radius: float = between(0.02, 0.08, "of the post", "m")
     height: float = between(0.3, 3.0, "of the post", "m")
     round_: bool = chance(0.5, "its plate is round")
-    anchors: int = among((4, 4, 6, 8), "holes of a round plate")
+    anchors: int = among((4, 4, 6, 8), "holes of a round plate", when=lambda p: p.round_, otherwise=4)
     thick: float = between(0.008, 0.025, "of the plate", "m")
     size: float = between(1.7, 2.6, "half the width of the plate / radius of the post")
     topped: bool = chance(0.4, "a plate on top too")

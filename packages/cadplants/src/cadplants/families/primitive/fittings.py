@@ -314,7 +314,7 @@ class ThinDisc(_Fitting, name="flange/thin disc", label="flange", bundle="flange
     rim: float = between(0.8, 1.05, "outside / of a flange")
     count: int = whole(1, 2, "discs")
     thick: float = between(0.004, 0.02, "of a disc", "m")
-    gap: float = among((0.0, 0.0, 0.002, 0.004), "between the discs", "m")
+    gap: float = among((0.0, 0.0, 0.002, 0.004), "between the discs", "m", when=lambda p: p.count > 1, otherwise=0.0)
 
     def build(self, t: Table) -> Model:
         rim, thick, length = t.flange.outer / 2 * self.rim, self.thick, round(0.06 + 2 * self.thick, 6)
