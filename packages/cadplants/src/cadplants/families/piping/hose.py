@@ -135,7 +135,7 @@ class Slack(_Between, name="hose/slack", sizes=sizes_between(most=150)):
 
 
 class Loading(Fitting, name="hose/loading", place="end", sizes=sizes_between(most=150), weight=1.0):
-    """A loading hose on a pipe's end: it hangs down in a U and comes up again to a mouth, or lies out on the ground."""
+    """A loading hose on a pipe's end: it hangs down in a U and comes up again to a mouth."""
 
     end: str = among(("hexagon", "cam lever"), _END)
     bow: float = between(5, 9, "radius of its bends / of the pipe")

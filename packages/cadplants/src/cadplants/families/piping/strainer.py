@@ -176,8 +176,8 @@ class Cone(Strainer, name="strainer/cone", sizes=SIZES[3:], weight=0.7):
         r, size, thick, wide = t.pipe.radius, t.flange, self.thick, 0.9 * t.pipe.bore
         outer, tab, long = 0.49 * (size.circle - size.bolt), self.tab * size.outer, self.long * r
         n = t.n(outer)
-        inner = 0.97 * outer
-        ear = extrude(np.array([[inner, -0.02], [tab, -0.02], [tab, 0.02], [inner, 0.02]]), 0.0, thick)
+        inner, half = 0.97 * outer, min(0.02, 0.3 * outer)
+        ear = extrude(np.array([[inner, -half], [tab, -half], [tab, half], [inner, half]]), 0.0, thick)
         ear = moved(ear, spun("x", self.turn * np.pi) @ _DOWN)
         pieces = [barrel(outer, 0.0, thick, n, wide if self.hollow else 0.0), ear]
         if self.hollow:
