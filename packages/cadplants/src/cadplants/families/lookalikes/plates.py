@@ -79,7 +79,7 @@ _GAP = "between the flange and its lid"
 class Based(
     Device, name="post/plate like a flange", group=FRAME, label="post", sizes=(15,), weight=1.5, grain="fitting"
 ):
-    """A round or square post on a plate like a flange, drilled or plain, with or without anchors and ribs."""
+    """A post on a round or square plate like a flange, drilled, with anchors."""
 
     radius: float = between(0.02, 0.08, "of the post", "m")
     height: float = between(0.3, 3.0, "of the post", "m")

@@ -113,7 +113,7 @@ class Lone(_Rail, name="railing/lone bent tube"):
         corners = [(0.0, y, low + z), (0.0, 0.0, low), (length, 0.0, top), (length, y, top + z)]
         if way == "loop":
             corners = [(0.5 * length, 0.0, (low + top) / 2 - end), *corners]
-        t.add("railing", _tube(corners, r, t.style, min(self.bend * r, 0.22 * end)))
+        t.add("railing", _tube(corners, r, t.style, min(self.bend * r, 0.4 * end)))
         for share in (0.2, 0.8):
             x, z = share * length, low + share * (top - low)
             if way == "wall":

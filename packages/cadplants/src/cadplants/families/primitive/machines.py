@@ -406,8 +406,8 @@ class PlainBox(_Vessel, name="tank/plain box", group="Tank", label="tank", weigh
     length: float = between(0.5, 2.0, "length", "m")
     wide: float = between(0.4, 1.5, "width", "m")
     high: float = between(0.4, 1.5, "height", "m")
-    tall: float = between(0.5, 2.0, "height of high legs", "m")
     stands: str = among(("floor", "low legs", "high legs"), "what it stands on")
+    tall: float = between(0.5, 2.0, "height of high legs", "m", when=lambda p: p.stands == "high legs")
     open_: bool = chance(0.5, "it is open at the top")
     nozzle_dn: int = among((25, 40, 50), "nominal size of its nozzle", "mm")
     snout: Snout = _snout(lambda p: p.nozzle_dn, "nozzle")
@@ -560,7 +560,7 @@ class DrumBurner(_OnFloor, name="burner/of boxes and cylinders", label="burner")
             lying(disc(r, -0.3 * a, 0.3 * a, style), 0, 0, low + 2 * r),
             lying(disc(0.55 * r, 0.3 * a, 0.7 * a, style), 0, 0, low + 2 * r),
             box((0.35 * a, 1.2 * r, r), (0, 0, low + 3.2 * r)),
-            box((0.1 * a, 0.1 * a, 1.2 * r), (0, 0, low + 0.6 * r)),
+            box((0.1 * a, 0.3 * b, 1.2 * r), (0, 0, low + 0.6 * r)),
         ]
         return self.put(t, solids, self.stub, (a, b, c), low)
 

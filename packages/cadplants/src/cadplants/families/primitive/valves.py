@@ -8,7 +8,7 @@ import numpy as np
 
 from cadplants.builder.device import Device, families_of
 from cadplants.builder.draws import of_form
-from cadplants.builder.params import Params, among, between, chance, given, nested, whole
+from cadplants.builder.params import Params, When, among, between, chance, given, nested, whole
 from cadplants.builder.table import Table
 from cadplants.families.primitive.shape import (
     cone,
@@ -127,8 +127,9 @@ class _Top(Params):
         self.turner.build(t, rise)
 
 
-def _flanged() -> float:
-    return among((0.1, 0.4, 0.6, 0.8, 1.0), "radius of its ends: 0 of the pipe, 1 of the flange")
+def _flanged(when: When | None = None) -> float:
+    said = "radius of its ends: 0 of the pipe, 1 of the flange"
+    return among((0.1, 0.4, 0.6, 0.8, 1.0), said, when=when, otherwise=0.0)
 
 
 def _screwed() -> float:
@@ -356,8 +357,8 @@ class ConesAndDish(
 class NoSpindle(_Valve, name="valve/no spindle", weight=1.5):
     """A body without a spindle: an hourglass with a bar across, a cylinder or a ball, maybe a flat lid."""
 
-    wide: float = _flanged()
     form: str = among(("hourglass", "cone", "ball"), "its body")
+    wide: float = _flanged(lambda p: p.form != "ball")
     barred: bool = chance(0.5, "a bar across the waist", when=of_form("hourglass"))
     plates: _Plates = _plates()
     lidded: bool = chance(0.4, "a flat lid")
