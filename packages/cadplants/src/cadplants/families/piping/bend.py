@@ -195,7 +195,8 @@ class Compression(Bend):
         r, n, _ = sized(dn, style)
         half, nut, long = 1.25 * r + 0.002, 1.1 * r + 0.008, self.long * r + 0.006
         reach, bored = long + nut, 0.99 * r if style.hollow else 0.0
-        leg = merge([barrel(1.1 * r, 0.0, long, n), prism(2 * half, 4, 0.0, 0.55 * long)])
+        block = prism(2 * half, 4, -half * float(np.tan(turn / 2)), 0.55 * long)
+        leg = merge([barrel(1.1 * r, 0.0, long, n), block])
         near, far = at(reach) @ BACK, _far(turn, reach) @ at(-reach)
         ends = [prism(2.55 * r + 0.006, 6, 0.15 * nut, nut, bored, n), barrel(1.15 * r, 0.0, nut, n, bored)]
         parts = _elbow(moved(leg, near), moved(leg, far), of="trim")

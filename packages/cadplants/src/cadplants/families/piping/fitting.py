@@ -444,7 +444,7 @@ class ThreadedCap(_Fitting, name="pipe cap/threaded", place="end", sizes=SMALL):
 
 
 class Outlet(_Fitting, name="branch outlet/olet", place="tap"):
-    """A branch outlet with a pipe: a forged olet's cone or a half coupling, a nipple, and a cap or flange on it."""
+    """A branch outlet with a pipe: a forged olet's cone, a nipple, and a cap, a flange or nothing on it."""
 
     size: int = among((15, 20, 25), "nominal size of the outlet", "mm")
     tall: float = between(0.05, 0.2, "length of the pipe on it", "m")
@@ -459,7 +459,7 @@ class Outlet(_Fitting, name="branch outlet/olet", place="tap"):
         if self.end == "cap":
             t.add("pipe cap", hexagon(2.6 * r, top, top + r + 0.01))
         elif self.end == "flange":
-            t.at(0, 0, top + plate).spun("x", np.pi).add("flange", disc_flange(self.size, t.style, plate))
+            t.at(0, 0, top + plate).spun("x", np.pi).add("flange", disc_flange(self.size, t.style, plate, bore))
         return t.model()
 
 

@@ -253,8 +253,9 @@ class FlatPlate(_Cap, name="pipe cap/flat plate"):
             rib = box((0.25 * r + 0.01, 1.8 * wide, 0.006 + 0.03 * r), (thick + 0.12 * r, 0, 0))
             pieces += [rib, moved(rib, spun("x", np.pi / 2))]
         if self.drained:
-            pieces.append(barrel(0.2 * r + 0.004, thick, thick + 0.025, 12))
-            pieces.append(prism(0.35 * r + 0.008, 6, thick + 0.025, thick + 0.035))
+            top = thick + min(0.025, 0.006 + 0.4 * r)
+            pieces.append(barrel(0.2 * r + 0.003, thick, top, 12))
+            pieces.append(prism(0.4 * r + 0.008, 6, top, top + 0.2 * r + 0.004))
         t.add("pipe cap", *pieces)
         return t.model()
 
