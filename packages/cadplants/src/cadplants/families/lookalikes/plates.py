@@ -182,8 +182,8 @@ class PlateOnEnd(
 ):
     """A plate welded to the end of a pipe: a flange with a bore, or a lid, or a base plate of a dummy leg."""
 
-    gap: float = among(_GAPS, _GAP, "m")
     lidded: bool = chance(0.5, "a blind flange before it")
+    gap: float = among(_GAPS, _GAP, "m", when=lambda p: p.lidded, otherwise=0.0)
 
     def build(self, t: Table) -> Model:
         rim, thick, count, bore = t.flange.outer / 2, t.flange.thickness, t.flange.n_bolts, t.pipe.bore

@@ -83,7 +83,7 @@ class CrossedTee(_Fitting, name="tee/crossed cylinders", label="tee", bundle="te
     def build(self, t: Table) -> Model:
         branch, reach = smaller(self.dn, self.steps), TEE_CENTER_TO_END[self.dn]
         run, r = t.pipe.radius, PIPES[branch].radius
-        foot = min(1.25 * r, run)
+        foot = min(1.25 * r, max(r, 0.9 * run))
         solids = [lying(pipe_piece(self.dn, 0.0, 2 * reach, t.style))]
         for turn, flared in zip(_TURNS, self.flared, strict=False):
             # A branch that begins higher up is within the run all round.
