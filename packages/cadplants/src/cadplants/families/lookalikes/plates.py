@@ -79,12 +79,12 @@ _GAP = "between the flange and its lid"
 class Based(
     Device, name="post/plate like a flange", group=FRAME, label="post", sizes=(15,), weight=1.5, grain="fitting"
 ):
-    """A round or square post on a plate like a flange, drilled or plain, with or without anchors and ribs."""
+    """A post on a round or square plate like a flange, drilled, with anchors."""
 
     radius: float = between(0.02, 0.08, "of the post", "m")
     height: float = between(0.3, 3.0, "of the post", "m")
     round_: bool = chance(0.5, "its plate is round")
-    anchors: int = among((4, 4, 6, 8), "holes of a round plate")
+    anchors: int = among((4, 4, 6, 8), "holes of a round plate", when=lambda p: p.round_, otherwise=4)
     thick: float = between(0.008, 0.025, "of the plate", "m")
     size: float = between(1.7, 2.6, "half the width of the plate / radius of the post")
     topped: bool = chance(0.4, "a plate on top too")
@@ -182,8 +182,8 @@ class PlateOnEnd(
 ):
     """A plate welded to the end of a pipe: a flange with a bore, or a lid, or a base plate of a dummy leg."""
 
-    gap: float = among(_GAPS, _GAP, "m")
     lidded: bool = chance(0.5, "a blind flange before it")
+    gap: float = among(_GAPS, _GAP, "m", when=lambda p: p.lidded, otherwise=0.0)
 
     def build(self, t: Table) -> Model:
         rim, thick, count, bore = t.flange.outer / 2, t.flange.thickness, t.flange.n_bolts, t.pipe.bore

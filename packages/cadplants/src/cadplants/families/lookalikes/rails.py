@@ -59,14 +59,14 @@ class _Bent(_Rail, weight=1.5):
     height: float = between(0.9, 1.15, "of the top rail", "m")
     tube: float = among((0.0169, 0.021, 0.024, 0.03), "radius of the tube", "m")
     bend: float = among((2.5, 4.0, 6.0), "radius of the bends / of the tube")
-    side: float = between(0.8, 2.0, "length round the corner", "m")
     cornered: bool = among((False, True), "it goes on round a corner")
+    side: float = between(0.8, 2.0, "length round the corner", "m", when=lambda p: p.cornered)
     single: bool = chance(0.7, "one knee rail, not two")
     knobs: bool = chance(0.25, "balls where the knee rail meets the first post")
     plates: bool = chance(0.5, "plates under its ends")
 
     def build(self, t: Table) -> Model:
-        length, high, r, side = self.length, self.height, self.tube, self.side if self.cornered else 0.0
+        length, high, r, side = self.length, self.height, self.tube, self.side
         corners = [(0.0, 0.0, 0.0), (0.0, 0.0, high), (length, 0.0, high)]
         corners += [(length, side, high), (length, side, 0.0)] if side else [(length, 0.0, 0.0)]
         solids = [_tube(corners, r, t.style, self.bend * r)]
@@ -113,7 +113,7 @@ class Lone(_Rail, name="railing/lone bent tube"):
         corners = [(0.0, y, low + z), (0.0, 0.0, low), (length, 0.0, top), (length, y, top + z)]
         if way == "loop":
             corners = [(0.5 * length, 0.0, (low + top) / 2 - end), *corners]
-        t.add("railing", _tube(corners, r, t.style, min(self.bend * r, 0.22 * end)))
+        t.add("railing", _tube(corners, r, t.style, min(self.bend * r, 0.4 * end)))
         for share in (0.2, 0.8):
             x, z = share * length, low + share * (top - low)
             if way == "wall":

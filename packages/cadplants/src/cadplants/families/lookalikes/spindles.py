@@ -133,7 +133,7 @@ class GlandInYoke(_Spindle, name="gate valve/gland in yoke", sizes=sizes_between
             t.add("nut", hexagon(4.6 * stem, low, low + 0.01 + stem, bore))
         for k in range(self.studs):
             stud = cylinder(0.08 * r + 0.002, 1.6 * r - 0.4 * thick, top + 1.6 * thick, 8)
-            t.spun("z", 0.4 + k * np.pi / 4).at(1.28 * r).add("stud", stud)
+            t.spun("z", 0.4 + 2 * np.pi * k / self.studs).at(1.28 * r).add("stud", stud)
         return table.model(length, kind="gate valve")
 
 

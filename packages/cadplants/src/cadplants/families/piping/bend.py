@@ -29,7 +29,7 @@ from cadplants.families.piping.shape import (
     tails,
 )
 from cadplants.family import Model, Part, placed
-from cadplants.flange import plate_thickness
+from cadplants.flange import nut_room, plate_thickness
 from cadplants.mesh_ops import Solid, merge, moved, tube
 from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle
@@ -120,7 +120,7 @@ class Banded(Bend):
     radius: float = between(1.15, 1.9, "of the bend / of its body")
     heel: bool = chance(0.6, "a thick heel", when=lambda p: p.design == "socket")
     web: bool = chance(0.3, "a web in its corner", when=lambda p: p.design == "glued")
-    ribbed: bool = chance(0.5, "ribs on the couplings of a grooved one")
+    ribbed: bool = chance(0.5, "ribs on its couplings", when=lambda p: p.design == "grooved")
 
     def bent(self, dn: int, style: ModelingStyle, turn: float) -> Bent:
         (r, n, bore), design, loose = sized(dn, style, 1.15), self.design, self.design == "grooved"
@@ -168,7 +168,8 @@ class Cast(Bend):
     def bent(self, dn: int, style: ModelingStyle, turn: float) -> Bent:
         (_, n, bore), rim, body = sized(dn, style), FLANGES[dn].outer, 0.485 * FLANGES[dn].hub
         room = plate_thickness(dn) + 0.3 * body
-        radius = self.radius * body + max(0.0, 0.5 * rim - room - body)
+        # In the inner corner there is room for the nuts behind both flanges.
+        radius = self.radius * body + max(0.0, 0.5 * rim + plate_thickness(dn) + nut_room(dn) - room - body)
         path, inner = bend_path(radius, turn, style.bend(radius + body, turn), 0.5 * room)
         first, more = counter(dn, style, BACK)
         reach = inner + 0.5 * room
@@ -194,7 +195,8 @@ class Compression(Bend):
         r, n, _ = sized(dn, style)
         half, nut, long = 1.25 * r + 0.002, 1.1 * r + 0.008, self.long * r + 0.006
         reach, bored = long + nut, 0.99 * r if style.hollow else 0.0
-        leg = merge([barrel(1.1 * r, 0.0, long, n), prism(2 * half, 4, 0.0, 0.55 * long)])
+        block = prism(2 * half, 4, -half * float(np.tan(turn / 2)), 0.55 * long)
+        leg = merge([barrel(1.1 * r, 0.0, long, n), block])
         near, far = at(reach) @ BACK, _far(turn, reach) @ at(-reach)
         ends = [prism(2.55 * r + 0.006, 6, 0.15 * nut, nut, bored, n), barrel(1.15 * r, 0.0, nut, n, bored)]
         parts = _elbow(moved(leg, near), moved(leg, far), of="trim")

@@ -311,7 +311,9 @@ class Breeches(Fitting, name="tee/breeches", place="end", sizes=_LARGE):
         )
         begin, length = 1.2 * r, 2.2 * small / np.sin(turn) + 0.05
         pieces, fars = [lathe(outline(r, 0.0, r, begin, 0.8 * r, begin + 0.5 * r), n)], []
-        path, reach = bend_path(2.2 * small, turn, t.style.bend(3 * small, turn), 0.4 * length)
+        # Where the legs go on side by side, so do the flanges on them.
+        far = (0.5 * FLANGES[self.other].outer + 0.005) / np.sin(turn) - 2.2 * small * np.tan(turn / 2)
+        path, reach = bend_path(2.2 * small, turn, t.style.bend(3 * small, turn), max(0.4 * length, far))
         for s in BOTH:
             way = at(0.7 * begin) @ spun("z", s * turn)
             if self.back:

@@ -262,7 +262,7 @@ def hygienic_clamp(t: Table, face: float, rim: float, hinged: bool = True) -> No
     wing = [
         cylinder(0.003, -0.022, 0.03, 8),
         cylinder(0.008, 0.014, 0.026, 10),
-        box((0.045, 0.005, 0.016), (0, 0, 0.03)),
+        box((min(0.045, 0.016 + 0.7 * r), 0.005, 0.012), (0, 0, 0.03)),
     ]
     t.at(mid, outer + 0.15 * r).add("nut", *wing)
 

@@ -8,7 +8,8 @@ import numpy as np
 
 from cadgraph.model.scene import Floats
 from cadplants.builder.device import families_of
-from cadplants.builder.params import among, between, chance, whole
+from cadplants.builder.draws import yes
+from cadplants.builder.params import among, between, chance, several, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.piping.shape import (
     QUARTERS,
@@ -16,21 +17,30 @@ from cadplants.families.piping.shape import (
     SMALL,
     Fitting,
     below,
+    bend_path,
+    counter,
+    crossing,
+    flat_flange,
     lathe,
+    parts_of,
     sized,
 )
 from cadplants.families.valves.threaded import hex_end
 from cadplants.families.valves.valve import bolt_circle, disc_flange, flanged_body
 from cadplants.family import Model
 from cadplants.flange import nut_room, plate_thickness
-from cadplants.mesh_ops import Branch, Solid, about_x, branched, extrude, loft, merge, moved, revolve, tube, weld
+from cadplants.mesh_ops import Solid, about_x, extrude, loft, merge, moved, revolve, tube, weld
+from cadplants.piping import cap
 from cadplants.polygon import circle
-from cadplants.primitives import along, around, box, cylinder, hexagon, lofted, ring, torus, turned, waves
+from cadplants.primitives import BOTH, along, around, box, cylinder, hexagon, lofted, ring, torus, turned, waves
 from cadplants.standards import FACE_TO_FACE, PIPES, REDUCER_LENGTH, SIZES, TEE_CENTER_TO_END, sizes_between
 from cadplants.transforms import at, spun
 from cadplants.valve_body import bore_of
 
 __all__ = ["FITTINGS"]
+
+
+_UP_AND_DOWN = (np.pi / 2, 3 * np.pi / 2)
 
 
 class _Fitting(Fitting, weight=1.0):
@@ -135,17 +145,18 @@ class FlangedBellows(_Fitting, name="expansion joint/flanged", bundle="expansion
         body = flanged_body(t.dn, t.style, length, skin)
         t.add("expansion joint", body, of="rubber" if self.rubber else "trim")
         if self.tied:
-            out = 0.5 * t.flange.outer + 0.02
-            bar = cylinder(0.006 + 0.03 * r, -0.02, length + 0.02, 8)
-            nuts = [hexagon(0.03, a, a + 0.015) for a in (-0.02, length + 0.005)]
-            ears = [box((0.08, 0.05, 0.012), (-0.01, 0, z)) for z in (0.3 * thick, length - 0.3 * thick)]
-            ties = [around(merge([bar, *nuts]), self.rods, out), *(around(ear, self.rods, out - 0.01) for ear in ears)]
-            t.add("stud", about_x(merge(ties)))
+            # Ears stand out from the flanges' rims; the rods go through them, between nuts on their outside.
+            rim, rod, ear = 0.5 * t.flange.outer, 0.004 + 0.03 * r, 0.7 * thick
+            nut, out = 1.6 * rod, rim + 3 * rod
+            bar = cylinder(rod, -1.5 * nut, length + 1.5 * nut, 8)
+            nuts = [hexagon(3.2 * rod, a, a + nut) for a in (-nut, length)]
+            ears = [box((5.5 * rod + 0.006, 6 * rod, ear), (-0.003, 0, z)) for z in (0.5 * ear, length - 0.5 * ear)]
+            t.add("stud", about_x(around(merge([bar, *nuts, *ears]), self.rods, out, np.pi / 4)))
         return t.model(round(length, 6))
 
 
 class WeldedBellows(_Fitting, name="expansion joint/welded"):
-    """Metal bellows or braided hose with plain ends for welding."""
+    """Metal bellows with plain ends for welding (EN 14917)."""
 
     waves: int = whole(4, 11, "waves")
 
@@ -162,20 +173,22 @@ class _Strainer(_Fitting, bundle="strainer", grain="structure"):
 
 
 class FlangedY(_Strainer, name="strainer/Y flanged", sizes=sizes_between(most=200)):
-    """A Y strainer, flanged: a slanting branch downward with a bolted or screwed cap."""
+    """A Y strainer, flanged: a slanting branch downward with a bolted lid and a plug in it."""
 
     def build(self, t: Table) -> Model:
         r, n, _ = sized(t.dn, t.style, 1.3)
         length, neck = FACE_TO_FACE["globe"][t.dn], 0.485 * t.flange.hub
         low, bulge = plate_thickness(t.dn) + 0.1 * length, max(neck, 1.2 * r + 0.004)
-        a, b, reach = low + 0.1 * length, length - low, max(2.6 * bulge, 0.72 * t.flange.outer)
+        a, b, lean = low + 0.1 * length, length - low, 0.8
+        thin, wide, thick, thread = 0.95 * bulge, 1.25 * bulge, 0.006 + 0.12 * bulge, 0.004 + 0.05 * bulge
+        # The lid clears the flange beside it.
+        reach = (0.5 * t.flange.outer + 0.005 + wide * np.sin(lean)) / np.cos(lean)
         skin = outline(neck, low, bulge, a, bulge, b - 0.1 * length, neck, b)
         t.add("strainer", flanged_body(t.dn, t.style, length, skin))
-        t, thin, wide = t.at(0.4 * length).spun("y", np.pi - 0.8), 0.95 * bulge, 1.25 * bulge
-        t.add("strainer", turned(outline(thin, 0.0, thin, reach, wide, reach, wide, reach + 0.014), n))
-        lid = cylinder(wide, reach + 0.014, reach + 0.03, n)
-        t.add("strainer", lid, hexagon(0.5 * bulge, reach + 0.03, reach + 0.045))
-        t.add("bolt", bolt_circle(4, 1.1 * bulge, 0.01, reach, reach + 0.03))
+        t, seat, top = t.at(0.4 * length).spun("y", np.pi - lean), reach + thick, reach + 2 * thick
+        t.add("strainer", turned(outline(thin, 0.0, thin, reach, wide, reach, wide, seat), n))
+        t.add("strainer", cylinder(wide, seat, top, n), hexagon(0.5 * bulge, top, top + thick))
+        t.add("bolt", bolt_circle(4 if t.dn < 80 else 8, 1.1 * bulge, thread, reach, top))
         return t.model(length)
 
 
@@ -195,40 +208,37 @@ class ThreadedY(_Strainer, name="strainer/Y threaded", sizes=SMALL):
 
 
 class Pot(_Strainer, name="strainer/pot"):
-    """A basket strainer: an upright pot across the line, a lid on top with bolts or a clamp bar (T type)."""
+    """A basket strainer: an upright pot across the line, a lid on top with bolts (T type)."""
 
     def build(self, t: Table) -> Model:
         r, n, _ = sized(t.dn, t.style, 1.9)
         pot, neck = 1.9 * r + 0.02, 0.485 * t.flange.hub
         length, wide = 2 * (pot + plate_thickness(t.dn) + nut_room(t.dn) + 0.01), 1.25 * pot
         body = flanged_body(t.dn, t.style, length, outline(neck, 0.3 * length, neck, 0.7 * length))
-        low, high = -2.2 * pot, max(1.1 * pot, 0.5 * t.flange.outer + 0.01)
+        low, high, thick = -2.2 * pot, max(1.1 * pot, 0.5 * t.flange.outer + 0.01), 0.006 + 0.1 * pot
         shell = outline(0.3 * pot, low - 0.3 * pot, 0.85 * pot, low - 0.15 * pot, pot, low, pot, high, wide, high)
-        t.add("strainer", body, moved(turned([*shell, (wide, high + 0.02)], n), at(length / 2)))
+        seat, top = high + thick, high + 2 * thick
+        t.add("strainer", body, moved(turned([*shell, (wide, seat)], n), at(length / 2)))
         t = t.at(length / 2)
-        t.add("strainer", turned(outline(wide, high + 0.021, wide, high + 0.04, 0.5 * pot, high + 0.06), n))
-        t.add("bolt", bolt_circle(8, 1.13 * pot, 0.012, high, high + 0.04))
+        t.add("strainer", turned(outline(wide, seat, wide, top, 0.5 * pot, top + 0.7 * thick), n))
+        t.add("bolt", bolt_circle(8 if t.dn < 150 else 16, 1.13 * pot, 0.003 + 0.05 * pot, high, top))
         return t.model(round(length, 6))
 
 
 class WeldedCross(_Fitting, name="cross/butt weld", weight=1.5):
     """A butt-welding cross (ASME B16.9), its side mouths of the same or a smaller size, closed by caps or open."""
 
+    other: int = among(lambda p: (p.dn, *below(p.dn, 2)), "nominal size of its side mouths", "mm")
+    capped: tuple[bool, ...] = several(yes(0.3), 2, "whether a cap is welded on each side mouth")
+
     def build(self, t: Table) -> Model:
-        (r, n, bore), reach = sized(t.dn, t.style), TEE_CENTER_TO_END[t.dn]
-        foot, length = 0.93 * r, 2 * reach
-        if n >= 16 and n % 4 == 0:
-            out = tuple(outline(foot, r + 0.5 * (reach - r), foot, reach, 0.0, reach))
-            branches = [Branch(reach, a, 0.9 * r, out) for a in (np.pi / 2, 3 * np.pi / 2)]
-            shell, _ = branched(outline(r, 0.0, r, length), n, branches)
-            inside = [outline(r, length, bore, length, bore, 0.0, r, 0.0)]
-            if not bore:
-                inside = [outline(0.0, 0.0, r, 0.0), outline(r, length, 0.0, length)]
-            t.add("cross", about_x(weld([shell, *(revolve(one, n) for one in inside)])))
-        else:
-            side = moved(cylinder(foot, -reach, reach, n), at(reach))
-            t.add("cross", along("x", cylinder(r, 0, length, n)), side)
-        return t.model(round(length, 6), "welded")
+        pipe, side, reach = t.pipe, PIPES[self.other], TEE_CENTER_TO_END[t.dn]
+        ends, branch = (pipe.radius, bore_of(t.dn, t.style)), (side.radius, bore_of(self.other, t.style))
+        t.add("cross", crossing(ends, branch, reach, t.style.round_fitting(pipe.radius), _UP_AND_DOWN))
+        for s, capped in zip(BOTH, self.capped, strict=True):
+            if capped:
+                t.at(reach, 0, s * reach).spun("y", -s * np.pi / 2).extend(parts_of(cap(self.other, t.style)))
+        return t.model(round(2 * reach, 6), "welded")
 
 
 class _Forged(_Fitting, sizes=SMALL):
@@ -237,11 +247,11 @@ class _Forged(_Fitting, sizes=SMALL):
     def arms(self, t: Table, through: bool) -> Model:
         """Two mouths in the line and one across it, or two where that goes through."""
         r, n, bore = sized(t.dn, t.style, 1.2)
-        reach = 1.6 * r + 0.015
-        up = outline(1.15 * r, 0.0, 1.15 * r, 0.6 * reach, 1.3 * r, 0.65 * reach, 1.3 * r, reach)
-        arm = turned([*((x, -z) for x, z in up[:0:-1]), *up[1:]], n, bore=bore)
-        across = arm if through else turned(up, n, bore=bore)
-        t.add(self.label, along("x", arm, reach), moved(across, at(reach)))
+        reach, turns = 1.6 * r + 0.015, _UP_AND_DOWN[: 1 + through]
+        body = crossing((1.15 * r, bore), (1.15 * r, bore), reach, n, turns)
+        band = lathe(outline(1.15 * r, 0.6 * reach, 1.3 * r, 0.65 * reach, 1.3 * r, reach), n, 1.1 * r if bore else 0.0)
+        ways = [spun("y", -turn) for turn in (0.0, np.pi, *turns)]
+        t.add(self.label, body, *(moved(band, at(reach) @ way) for way in ways))
         return t.model(round(2 * reach, 6), "welded")
 
 
@@ -262,12 +272,17 @@ class ForgedTee(_Forged, name="tee/forged", sizes=SMALL, weight=1.5):
 class FlangedTee(_Fitting, name="tee/flanged"):
     """A cast tee with flanges at all three mouths, the third closed by a blind flange or open."""
 
+    closed: bool = chance(0.4, "a blind flange on its branch")
+
     def build(self, t: Table) -> Model:
-        reach = 0.5 * t.flange.outer + plate_thickness(t.dn) + nut_room(t.dn) + 0.02
-        neck = 0.485 * t.flange.hub
-        body = flanged_body(t.dn, t.style, 2 * reach, outline(neck, 0.4 * reach, neck, 1.6 * reach))
-        branch = disc_flange(t.dn, t.style, reach - 0.6 * neck)
-        t.add("tee", body, moved(branch, at(reach, 0, reach) @ spun("x", np.pi)))
+        plate, neck, bore = plate_thickness(t.dn), 0.485 * t.flange.hub, bore_of(t.dn, t.style)
+        reach = 0.5 * t.flange.outer + plate + nut_room(t.dn) + 0.02
+        body = crossing((neck, bore), (neck, bore), reach, t.n(neck), _UP_AND_DOWN[:1])
+        rim = flat_flange(t.dn, t.style, reach - plate, plate, 0.99 * neck if bore else 0.0)
+        ways = [at(reach) @ spun("y", -turn) for turn in (np.pi, 0.0, np.pi / 2)]
+        t.add("tee", body, *(moved(rim, way) for way in ways))
+        if self.closed:
+            t.extend(counter(t.dn, t.style, ways[2] @ at(reach), blind=True)[0])
         return t.model(round(2 * reach, 6))
 
 
@@ -331,7 +346,7 @@ class Spectacle(_Fitting, name="blind flange/spectacle", grain="structure"):
     """A spectacle blind (ASME B16.48): a ring and a disc on one plate, or a spacer with a handle."""
 
     open: bool = chance(0.5, "what is in the line is bored")
-    double: bool = chance(0.6, "a second ring beside it, not a handle")
+    double: bool = chance(0.6, "its counterpart, a disc or a ring, beside it, not a handle")
 
     def build(self, t: Table) -> Model:
         size, pipe = t.flange, t.pipe
@@ -340,7 +355,8 @@ class Spectacle(_Fitting, name="blind flange/spectacle", grain="structure"):
         solids = [ring(pipe.bore if self.open else 0.0, outer, 0, thick, n)]
         if self.double:
             web = (max(away - 2 * outer, 0.0) + 0.02, 0.36 * outer, 0.008)
-            solids += [box(web, (away / 2, 0, 0.006)), moved(ring(pipe.bore, outer, 0, thick, n), at(away))]
+            other = ring(0.0 if self.open else pipe.bore, outer, 0, thick, n)
+            solids += [box(web, (away / 2, 0, 0.006)), moved(other, at(away))]
         else:
             solids.append(box((0.10, 0.03, thick), (outer + 0.04, 0, thick / 2)))
         t.spun("x", np.pi / 2).add("blind flange", about_x(merge(solids)))
@@ -348,7 +364,7 @@ class Spectacle(_Fitting, name="blind flange/spectacle", grain="structure"):
 
 
 class Hanging(_Fitting, name="hose/hanging", place="end", sizes=sizes_between(most=200)):
-    """A hose hanging from a pipe's end: a collar, then a curve to the ground; smooth or corrugated."""
+    """A smooth hose hanging from a pipe's end: a collar, then a curve to the ground."""
 
     reach: float = between(6, 14, "how far it reaches, less 0.1 m / radius of the pipe")
 
@@ -395,15 +411,22 @@ class ForgedElbow(_Fitting, name="elbow/forged", place="end", sizes=SMALL, weigh
     """A threaded or socket elbow with banded mouths on a pipe's end (ASME B16.11), and a plug or a nipple in it."""
 
     roll: float = among(QUARTERS, ROLL)
+    plugged: bool = chance(0.3, "a plug in it, not a nipple")
 
     def build(self, t: Table) -> Model:
         r, n, bore = sized(t.dn, t.style, 1.2)
         reach, a, b = 1.6 * r + 0.015, 1.3 * r, 1.15 * r
-        arm = turned(outline(a, -reach, a, -0.6 * reach, b, -0.55 * reach, b, 0.4 * r), n)
-        knee = turned(outline(0.4 * r, -1.1 * r, r, -0.6 * r, b, 0.0, r, 0.6 * r, 0.4 * r, 1.1 * r), n)
-        t = t.spun("x", self.roll * np.pi).at(reach)
-        t.add("elbow", along("x", arm), along("-y", arm), knee)
-        t.along("y").add("nipple", ring(bore, r, reach, reach + 0.1 + 2 * r, n))
+        path, _ = bend_path(1.1 * b, np.pi / 2, t.style.bend(2 * b), reach - 1.1 * b)
+        band = lathe(outline(b, 0.55 * reach, a, 0.6 * reach, a, reach), n, 1.1 * r if bore else 0.0)
+        t = t.spun("x", self.roll * np.pi)
+        ways = [at(reach) @ spun("z", turn) for turn in (np.pi, np.pi / 2)]
+        t.add("elbow", tube(path, b, bore, n), *(moved(band, way) for way in ways))
+        t = t.at(reach).along("y")
+        if self.plugged:
+            head = hexagon(2.0 * r, reach, reach + 0.5 * r + 0.006)
+            t.add("pipe cap", cylinder(0.95 * r, 0.7 * reach, reach, n), head)
+        else:
+            t.add("nipple", ring(bore, r, reach, reach + 0.1 + 2 * r, n))
         return t.model()
 
 
@@ -421,7 +444,7 @@ class ThreadedCap(_Fitting, name="pipe cap/threaded", place="end", sizes=SMALL):
 
 
 class Outlet(_Fitting, name="branch outlet/olet", place="tap"):
-    """A branch outlet with a pipe: a forged olet's cone or a half coupling, a nipple, and a cap or flange on it."""
+    """A branch outlet with a pipe: a forged olet's cone, a nipple, and a cap, a flange or nothing on it."""
 
     size: int = among((15, 20, 25), "nominal size of the outlet", "mm")
     tall: float = between(0.05, 0.2, "length of the pipe on it", "m")
@@ -436,7 +459,7 @@ class Outlet(_Fitting, name="branch outlet/olet", place="tap"):
         if self.end == "cap":
             t.add("pipe cap", hexagon(2.6 * r, top, top + r + 0.01))
         elif self.end == "flange":
-            t.at(0, 0, top + plate).spun("x", np.pi).add("flange", disc_flange(self.size, t.style, plate))
+            t.at(0, 0, top + plate).spun("x", np.pi).add("flange", disc_flange(self.size, t.style, plate, bore))
         return t.model()
 
 
@@ -456,8 +479,9 @@ class Blind(_Fitting, name="blind flange/disc", place="head", bundle="blind flan
         )
         t.add("blind flange", about_x(disc))
         if self.eyed:
-            eye = moved(torus(0.03, 0.006, 14), spun("x", np.pi / 2))
-            t.at(plate + 0.03).add("lifting lug", eye, of="fastener", own=True, fine=True)
+            eye, face = 0.012 + 0.1 * t.pipe.radius, plate if self.drilled else self.thick * plate
+            bow = moved(torus(eye, 0.22 * eye, 14), spun("x", np.pi / 2))
+            t.at(face + eye).add("lifting lug", bow, of="fastener", own=True, fine=True)
         return t.model()
 
 

@@ -81,9 +81,9 @@ class RubberSphere(_Joint, name="expansion joint/rubber sphere", weight=1.0, gra
     def _ties(self, t: Table, x: float, thick: float, length: float) -> None:
         """Ears for control rods at both ends, beyond the flanges' rims, and the rods with their nuts."""
         rim, count = t.flange.outer / 2, self.rods
-        reach, bolt = rim + 0.02 + 0.05 * rim, 0.008 + 0.03 * rim
-        far = reach + 1.5 * bolt
-        ear = box((thick, far - 0.93 * rim, 4 * bolt), (x, 0.5 * (far + 0.93 * rim), 0))
+        bolt = 0.005 + 0.05 * rim
+        reach, far = rim + 1.6 * bolt, rim + 3.1 * bolt
+        ear = box((thick, far - 0.93 * rim, 3 * bolt), (x, 0.5 * (far + 0.93 * rim), 0))
         ears = merge([moved(ear, spun("x", 2 * np.pi * k / count)) for k in range(count)])
         for end in _ways(t, length):
             end.add(_ME, ears, of="steel")

@@ -86,7 +86,7 @@ class _Between(Fitting, weight=1.0):
     end: str = among(_ENDS, _END)
     span: float = between(5, 16, "length, less 0.1 m / radius of the pipe")
     skin: str = among(_SKINS, _SKIN)
-    drop: float = between(0.1, 0.5, "how far it could sag / its length")
+    drop: float = between(0.1, 0.5, "how far it could sag / its length", when=lambda p: p.sagging)
     of: str = among(("rubber", "trim", "handle"), "kind of material")
     # A flange meets the counter-flange that the line brings along, no bare pipe.
     lead: float = among(
@@ -112,9 +112,11 @@ class _Between(Fitting, weight=1.0):
 
 
 class Braided(_Between, name="hose/braided", sizes=sizes_between(most=150)):
-    """A corrugated metal hose under braid with flanges or screwed ends (ISO 10380), straight as at a pump."""
+    """A straight corrugated metal hose under braid (ISO 10380): ferrules hold it, flanges or hexagons at its ends."""
 
-    end: str = given("hexagon", _END)
+    end: str = among(("flange", "hexagon"), _END)
+    skin: str = among(("smooth", "spiral"), _SKIN)
+    of: str = given("trim", "kind of material")
 
 
 class Flanged(_Between, name="hose/flanged"):
@@ -133,7 +135,7 @@ class Slack(_Between, name="hose/slack", sizes=sizes_between(most=150)):
 
 
 class Loading(Fitting, name="hose/loading", place="end", sizes=sizes_between(most=150), weight=1.0):
-    """A loading hose on a pipe's end: it hangs down in a U and comes up again to a mouth, or lies out on the ground."""
+    """A loading hose on a pipe's end: it hangs down in a U and comes up again to a mouth."""
 
     end: str = among(("hexagon", "cam lever"), _END)
     bow: float = between(5, 9, "radius of its bends / of the pipe")

@@ -214,7 +214,7 @@ class SelfCleaning(Strainer, name="strainer/self-cleaning", sizes=sizes_between(
         t.add("terminal box", box((0.8 * q, 0.6 * q, 0.8 * q), (1.1 * q, 0, on + 0.5 * tall)))
         leg = box((0.05, 0.05, cone + 0.3), (0, 0, low - 0.5 * cone - 0.1))
         for k in range(self.legs):
-            t.spun("z", 0.6 + 2 * np.pi * k / 4).at(0.97 * pot).add("tank leg", leg)
+            t.spun("z", 0.6 + 2 * np.pi * k / self.legs).at(0.97 * pot).add("tank leg", leg)
         return t.model(round(length, 9))
 
 

@@ -13,7 +13,20 @@ from cadplants.builder.params import Params, among, between, given
 from cadplants.builder.table import Table
 from cadplants.family import Part
 from cadplants.flange import bolts, flange, flange_length, gasket, nut_room, plate_thickness
-from cadplants.mesh_ops import Solid, about_x, extrude, loft, merge, moved, weld
+from cadplants.mesh_ops import (
+    Branch,
+    Shell,
+    Solid,
+    about_x,
+    branched,
+    extrude,
+    loft,
+    merge,
+    moved,
+    reverse,
+    revolve,
+    weld,
+)
 from cadplants.modeling_style import ModelingStyle
 from cadplants.piping import cap
 from cadplants.plant import Assembly
@@ -39,6 +52,7 @@ __all__ = [
     "bend_path",
     "bolting",
     "counter",
+    "crossing",
     "drilled",
     "flat_flange",
     "grooved",
@@ -211,14 +225,14 @@ def joint(
     return parts, neck + pad + (plate if blind else neck)
 
 
-def counter(dn: int, style: ModelingStyle, pose: Floats) -> tuple[list[Part], float]:
-    """Gasket, counter-flange and bolts at a flat face of a fitting, outward along x of the pose; and their length."""
+def counter(dn: int, style: ModelingStyle, pose: Floats, blind: bool = False) -> tuple[list[Part], float]:
+    """Gasket, counter-flange or lid, and bolts at a flat face, outward along x of the pose; and their length."""
     neck, plate = flange_length(dn, style), plate_thickness(dn)
     pad = 0.002 if style.gaskets else 0.0
     parts = parts_of(gasket(dn, style), pose)
-    parts += parts_of(flange(dn, style, grip=2 * plate + pad), pose @ at(pad))
+    parts += parts_of(flange(dn, style, blind=blind, grip=2 * plate + pad), pose @ at(pad))
     parts += parts_of(bolts(dn, 2 * plate + pad, style), pose @ at(-plate))
-    return parts, pad + neck
+    return parts, pad + (plate if blind else neck)
 
 
 def mouth(design: str, dn: int, style: ModelingStyle, low: float, high: float) -> Solid:
@@ -253,6 +267,34 @@ def mouth(design: str, dn: int, style: ModelingStyle, low: float, high: float) -
         plate = flat_flange(dn, style, high - thick, thick, bore)
         return merge([plate, lathe([(neck, low), (neck, high - thick)], n, bore)])
     return lathe([(r, low), (r, high)], n, bore)
+
+
+def crossing(
+    ends: tuple[float, float], branch: tuple[float, float], reach: float, sides: int, turns: Sequence[float]
+) -> Solid:
+    """A pipe along x with branches out of its middle, open inside where there are bores; all its mouths are open [m].
+
+    Args:
+        ends: radius and bore of the pipe; a bore of 0 makes it solid.
+        branch: radius and bore of a branch.
+        reach: from the middle to each mouth.
+        sides: of the pipe, a multiple of 4.
+        turns: where its branches point, about the pipe [rad]: quarters of a turn.
+    """
+    shells: list[Shell] = []
+    rims: list[list[Floats]] = []
+    # Both skins are cut alike, so that their mouths have as many corners; a branch's foot stays on its own side.
+    share, high = min(branch[0] / ends[0], 0.93), 0.6 * reach + 0.4 * ends[0]
+    for radius, end in zip(ends, branch, strict=True):
+        if radius:
+            arms = [Branch(reach, turn, share * radius, ((end, high), (end, reach))) for turn in turns]
+            shell, loops = branched([(radius, 0.0), (radius, 2 * reach)], sides, arms)
+            shells.append(reverse(shell) if rims else shell)
+            rims.append(loops)
+    outer, bore = ends
+    shells += [revolve([(bore, 0.0), (outer, 0.0)], sides), revolve([(outer, 2 * reach), (bore, 2 * reach)], sides)]
+    inside = rims[1] if bore else [loop.mean(axis=0, keepdims=True) for loop in rims[0]]
+    return about_x(weld([*shells, *(loft([one, two]) for one, two in zip(rims[0], inside, strict=True))]))
 
 
 def _half_ring(inner: float, outer: float, width: float, sides: int) -> Solid:

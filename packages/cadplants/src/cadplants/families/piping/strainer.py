@@ -70,9 +70,9 @@ class CastY(Strainer, name="strainer/Y cast", weight=1.5):
     """A cast Y strainer (EN 558 series 1): a long leaning basket housing, ribs, a bolted lid with a plug."""
 
     arm: float = between(1.15, 1.4, "radius of its leg, less 4 mm / radius of the pipe")
-    lean: float = between(0.6, 1.0, "of its leg from the line", "rad")
+    lean: float = between(0.7, 1.0, "of its leg from the line", "rad")
     swell: float = between(1.0, 1.2, "radius of its body / of its leg")
-    far: float = between(0.55, 0.75, "length of its leg / of the strainer")
+    far: float = between(1.0, 1.25, "length of its leg / what its lid needs to clear the flange")
     ribbed: bool = chance(0.5, "a rib along its leg")
     lid: Lid = nested(Lid, "its lid")
 
@@ -81,11 +81,10 @@ class CastY(Strainer, name="strainer/Y cast", weight=1.5):
         length, neck, low, lean = FACE_TO_FACE["globe"][t.dn], 0.485 * t.flange.hub, swell_room(t.dn), self.lean
         arm = max(neck, self.arm * r + 0.004)
         swell, x = self.swell * arm, 0.38 * length
-        far = max(length * self.far, (0.5 * t.flange.outer + arm) / np.sin(lean))
-        if x + far * np.cos(lean) > length + 0.4 * r:
-            far = (length + 0.4 * r - x) / np.cos(lean)
+        collar, plate = 1.3 * arm + 0.012, 0.012 + 0.07 * r
+        far = self.far * ((0.5 * t.flange.outer + 0.005 + collar * np.cos(lean)) / np.sin(lean) + plate)
         body = lathe(outline(neck, low, swell, 0.35 * length, swell, 0.62 * length, neck, length - low), n)
-        way, collar, plate = at(x) @ spun("y", lean), 1.3 * arm + 0.012, 0.012 + 0.07 * r
+        way = at(x) @ spun("y", lean)
         leg = [lathe(outline(arm, 0.0, 0.96 * arm, far - plate), n), barrel(collar, far - plate, far, n)]
         if self.ribbed:
             leg.append(box((0.7 * far, 0.12 * r + 0.003, 2.3 * arm), (0.62 * far, 0, 0)))
@@ -177,8 +176,8 @@ class Cone(Strainer, name="strainer/cone", sizes=SIZES[3:], weight=0.7):
         r, size, thick, wide = t.pipe.radius, t.flange, self.thick, 0.9 * t.pipe.bore
         outer, tab, long = 0.49 * (size.circle - size.bolt), self.tab * size.outer, self.long * r
         n = t.n(outer)
-        inner = 0.97 * outer
-        ear = extrude(np.array([[inner, -0.02], [tab, -0.02], [tab, 0.02], [inner, 0.02]]), 0.0, thick)
+        inner, half = 0.97 * outer, min(0.02, 0.3 * outer)
+        ear = extrude(np.array([[inner, -half], [tab, -half], [tab, half], [inner, half]]), 0.0, thick)
         ear = moved(ear, spun("x", self.turn * np.pi) @ _DOWN)
         pieces = [barrel(outer, 0.0, thick, n, wide if self.hollow else 0.0), ear]
         if self.hollow:

@@ -253,8 +253,9 @@ class FlatPlate(_Cap, name="pipe cap/flat plate"):
             rib = box((0.25 * r + 0.01, 1.8 * wide, 0.006 + 0.03 * r), (thick + 0.12 * r, 0, 0))
             pieces += [rib, moved(rib, spun("x", np.pi / 2))]
         if self.drained:
-            pieces.append(barrel(0.2 * r + 0.004, thick, thick + 0.025, 12))
-            pieces.append(prism(0.35 * r + 0.008, 6, thick + 0.025, thick + 0.035))
+            top = thick + min(0.025, 0.006 + 0.4 * r)
+            pieces.append(barrel(0.2 * r + 0.003, thick, top, 12))
+            pieces.append(prism(0.4 * r + 0.008, 6, top, top + 0.2 * r + 0.004))
         t.add("pipe cap", *pieces)
         return t.model()
 
@@ -348,27 +349,33 @@ class QuickClosure(_Cap, name="pipe cap/quick closure", sizes=SIZES[5:], weight=
     def build(self, t: Table) -> Model:
         r, n, _ = sized(t.dn, t.style, 1.3)
         hub, deep, thick, bored = 1.3 * r + 0.01, 0.5 * r + 0.03, 0.02 + 0.15 * r, 0.9 * r if t.style.hollow else 0.0
-        arm, far = 1.12 * hub + 0.02, deep + thick
+        arm, far, plate = 1.12 * hub + 0.02, deep + thick, 0.006 + 0.05 * r
         t.add("flange", lathe(outline(1.02 * r, 0.0, hub, 0.5 * deep, hub, deep), n, bored), own=False)
         door = outline(hub, deep, hub, far, 0.7 * hub, deep + 1.5 * thick, 0.25 * hub, deep + 1.8 * thick)
-        hinge = deep + 0.8 * thick
         t.add(
             "pipe cap",
             lathe(door, n),
-            box((0.02, arm, 0.5 * hub), (deep + 1.35 * thick, -0.55 * arm, 0)),
-            moved(cylinder(0.016 + 0.03 * r, -0.4 * hub, 0.4 * hub, 10), at(hinge, -arm - 0.02)),
-            box((hinge, 0.02, 0.6 * hub), (0.5 * hinge, -arm, 0)),
-            box((0.02, 0.2 * hub + 0.03, 0.6 * hub), (0.6 * deep, -hub - 0.05 * hub, 0)),
+            box((plate, arm, 0.5 * hub), (deep + 1.35 * thick, -0.55 * arm, 0)),
+            moved(cylinder(0.008 + 0.05 * r, -0.4 * hub, 0.4 * hub, 10), at(deep + 1.1 * thick, -arm)),
+            box((0.55 * deep + 1.1 * thick, plate, 0.5 * hub), (0.725 * deep + 0.55 * thick, -arm, 0)),
+            box((plate, 0.2 * hub + 0.03, 0.5 * hub), (0.6 * deep, -hub - 0.05 * hub, 0)),
             of="tank",
         )
         if self.clamped:
-            half = half_band(hub, 1.12 * hub + 0.008, 0.6 * deep, hinge, n, 0.92 * np.pi)
+            half = half_band(hub, 1.12 * hub + 0.008, 0.6 * deep, deep + 0.8 * thick, n, 0.92 * np.pi)
             for turn in (0.0, np.pi):
                 t.bundled("clamp").spun("x", turn).add("clamp", half, own=True)
             grip = at(deep, 1.1 * hub) @ UP
             t.extend(bolting(1, 0.0, 0.012 + 0.03 * r, -0.3 * hub, 0.3 * hub, t.style, "clamp", grip))
         else:
-            t.extend(bolting(self.bolts, hub + 0.01, 0.01 + 0.05 * r, 0.4 * deep, far, t.style, "pipe cap"))
+            # Each swings in a lug of the hub and lies in one of the door.
+            thread = 0.006 + 0.05 * r
+            out, lug = hub + 1.2 * thread, (2.4 * thread, 2 * thread)
+            for name, low, high in (("flange", 0.6 * deep, 0.98 * deep), ("pipe cap", deep, far)):
+                one = box((high - low, *lug), ((low + high) / 2, hub + 0.9 * thread, 0))
+                turns = [(2 * k + 1) * np.pi / self.bolts for k in range(self.bolts)]
+                t.add(name, *(moved(one, spun("x", turn)) for turn in turns), of="tank", own=name == "pipe cap")
+            t.extend(bolting(self.bolts, out, thread, 0.6 * deep, far, t.style, "pipe cap"))
         return t.model()
 
 

@@ -77,15 +77,18 @@ class CrossedTee(_Fitting, name="tee/crossed cylinders", label="tee", bundle="te
     """Crossed cylinders, each with closed ends, or a snout on a run: a tee in one mesh."""
 
     steps: int = whole(0, 2, "how many nominal sizes smaller the branch is")
-    crossed: bool = chance(0.5, "the branch begins at the axis of the run")
+    crossed: bool = chance(0.5, "the branch begins at the axis of the run", when=lambda p: p.steps, otherwise=True)
     flared: tuple[bool, ...] = several(yes(0.3), 1, "whether the branch is a cone")
 
     def build(self, t: Table) -> Model:
         branch, reach = smaller(self.dn, self.steps), TEE_CENTER_TO_END[self.dn]
-        start, r = 0.0 if self.crossed else 0.8 * t.pipe.radius, PIPES[branch].radius
+        run, r = t.pipe.radius, PIPES[branch].radius
+        foot = min(1.25 * r, max(r, 0.9 * run))
         solids = [lying(pipe_piece(self.dn, 0.0, 2 * reach, t.style))]
         for turn, flared in zip(_TURNS, self.flared, strict=False):
-            flare = cone(r * 1.25, r, start, reach, t.style)
+            # A branch that begins higher up is within the run all round.
+            start = 0.0 if self.crossed else 0.9 * float(np.sqrt(run**2 - (foot if flared else r) ** 2))
+            flare = cone(foot, r, start, reach, t.style)
             arm = flare if flared else pipe_piece(branch, start, reach, t.style)
             solids.append(moved(arm, at(reach) @ spun("x", turn)))
         t.add(self.label, *solids, of="pipe")
@@ -228,7 +231,7 @@ class Discs(_Fitting, name="expansion joint/discs", label="expansion joint", bun
 
     length: float = between(0.7, 1.4, "face to face / outside of the flange")
     form: str = among(("cylinder", "discs", "rings"), "what is between its ends")
-    wide: float = between(1.2, 1.6, "radius of that / of the pipe")
+    wide: float = between(1.2, 1.6, "radius of that / of the pipe", when=lambda p: p.form != "rings")
     count: int = whole(3, 7, "discs or rings", when=lambda p: p.form != "cylinder")
 
     def build(self, t: Table) -> Model:
@@ -314,7 +317,7 @@ class ThinDisc(_Fitting, name="flange/thin disc", label="flange", bundle="flange
     rim: float = between(0.8, 1.05, "outside / of a flange")
     count: int = whole(1, 2, "discs")
     thick: float = between(0.004, 0.02, "of a disc", "m")
-    gap: float = among((0.0, 0.0, 0.002, 0.004), "between the discs", "m")
+    gap: float = among((0.0, 0.0, 0.002, 0.004), "between the discs", "m", when=lambda p: p.count > 1, otherwise=0.0)
 
     def build(self, t: Table) -> Model:
         rim, thick, length = t.flange.outer / 2 * self.rim, self.thick, round(0.06 + 2 * self.thick, 6)

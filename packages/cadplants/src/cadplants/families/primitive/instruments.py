@@ -33,7 +33,7 @@ class _Case(Params):
     ringed: bool = given(False, "an open ring, not solid")
     detailed: bool = chance(0.5, "it may have more than its case", when=lambda p: not p.ringed, otherwise=True)
     deep: float = between(0.35, 0.9, "depth / radius")
-    wall: float = between(0.06, 0.2, "thickness of the ring / radius")
+    wall: float = between(0.06, 0.2, "thickness of the ring / radius", when=lambda p: p.ringed)
     backed: bool = chance(0.6, "the ring has a back", when=lambda p: p.ringed)
     lipped: bool = chance(0.4, "the ring has a lip", when=lambda p: p.ringed)
     faced: bool = chance(0.5, "it has a face", when=lambda p: p.detailed and not p.ringed, otherwise=True)

@@ -239,9 +239,8 @@ class _Upright(_Vessel):
     radius: float
     high: float = between(1.6, 4.0, "height of the shell / radius")
     depth: float = among((0.25, 0.5, 1.0, 0.0), "depth of a dish / radius")
-    slender: float = given(0.0, "height of a slender shell / radius")
     low: float = between(0.2, 0.7, "height of the lower dish over the floor", "m")
-    apart: bool = chance(0.4, "its heads are meshes of their own", when=lambda p: p.depth or p.slender, otherwise=False)
+    apart: bool = chance(0.4, "its heads are meshes of their own", when=lambda p: p.depth, otherwise=False)
     stand: _Stand
     count: int = whole(1, 3, "nozzles")
     nozzles: tuple[_SideNozzle, ...] = several(
@@ -252,19 +251,17 @@ class _Upright(_Vessel):
         """Puts all but a manway down: height of the shell's foot, of the shell, depth of a dish [m]; the ports."""
         radius, tank, style = self.radius, self.label == "tank", t.style
         name = "shell" if tank else self.label
-        high, depth = radius * (self.slender or self.high), radius * self.depth
-        depth = max(depth, 0.25 * radius) if self.slender else depth
+        high, depth = radius * self.high, radius * self.depth
         low, own = depth + self.low, t.bundled(name)
-        if self.apart and tank:
+        whole = depth and not self.apart
+        solid = vessel(radius, low, low + high, depth, style) if whole else disc(radius, low, low + high, style)
+        heights = [low + 0.8 * high, low + 0.93 * high] if self.label == "filter" else []
+        lids = [disc(1.3 * radius, z, z + 0.12 * radius, style) for z in heights]
+        own.add(name, solid, *lids, of="tank")
+        if self.apart:
             head = dish(radius, depth, 0.0, style)
-            own.add(name, disc(radius, low, low + high, style))
             for pose in (at(0, 0, low + high), at(0, 0, low) @ spun("x", np.pi)):
-                own.add("dished head", moved(head, pose))
-        else:
-            solid = vessel(radius, low, low + high, depth, style) if depth else disc(radius, low, low + high, style)
-            heights = [low + 0.8 * high, low + 0.93 * high] if self.label == "filter" else []
-            lids = [disc(1.3 * radius, z, z + 0.12 * radius, style) for z in heights]
-            own.add(name, solid, *lids, of="tank")
+                own.add("dished head" if tank else name, moved(head, pose), of="tank")
         self.stand.build(t, radius, low)
         ports = []
         for k, one in enumerate(self.nozzles):
@@ -310,7 +307,8 @@ class UprightFilter(_Upright, name="filter/upright of primitives", group="Equipm
 class UprightSeparator(UprightFilter, name="separator/upright of primitives", label="separator"):
     """A slender separator about z with dishes, on legs or a block, with nozzles."""
 
-    slender: float = between(4.0, 8.0, "height of the shell / radius")
+    high: float = between(4.0, 8.0, "height of the shell / radius")
+    depth: float = among((0.25, 0.25, 0.5, 1.0), "depth of a dish / radius")
 
 
 class _TopNozzle(Params):
@@ -408,8 +406,8 @@ class PlainBox(_Vessel, name="tank/plain box", group="Tank", label="tank", weigh
     length: float = between(0.5, 2.0, "length", "m")
     wide: float = between(0.4, 1.5, "width", "m")
     high: float = between(0.4, 1.5, "height", "m")
-    tall: float = between(0.5, 2.0, "height of high legs", "m")
     stands: str = among(("floor", "low legs", "high legs"), "what it stands on")
+    tall: float = between(0.5, 2.0, "height of high legs", "m", when=lambda p: p.stands == "high legs")
     open_: bool = chance(0.5, "it is open at the top")
     nozzle_dn: int = among((25, 40, 50), "nominal size of its nozzle", "mm")
     snout: Snout = _snout(lambda p: p.nozzle_dn, "nozzle")
@@ -562,7 +560,7 @@ class DrumBurner(_OnFloor, name="burner/of boxes and cylinders", label="burner")
             lying(disc(r, -0.3 * a, 0.3 * a, style), 0, 0, low + 2 * r),
             lying(disc(0.55 * r, 0.3 * a, 0.7 * a, style), 0, 0, low + 2 * r),
             box((0.35 * a, 1.2 * r, r), (0, 0, low + 3.2 * r)),
-            box((0.1 * a, 0.1 * a, 1.2 * r), (0, 0, low + 0.6 * r)),
+            box((0.1 * a, 0.3 * b, 1.2 * r), (0, 0, low + 0.6 * r)),
         ]
         return self.put(t, solids, self.stub, (a, b, c), low)
 

@@ -102,8 +102,8 @@ class SharpFrame(_Steel, name="frame/sharp sections", label="beam", weight=2.5):
     section: _Section = _section(0.08, 0.25)
     bays: int = whole(1, 3, "bays")
     wide: float = between(1.2, 3.0, "width of a bay", "m")
-    deep: float = between(1.0, 2.0, "between the two sides", "m")
     two: bool = among((False, True), "it has two sides")
+    deep: float = between(1.0, 2.0, "between the two sides", "m", when=lambda p: p.two)
     high: float = between(1.2, 4, "height of the columns", "m")
     sides: tuple[_Side, ...] = several(
         made(_Side, lambda p: {"bays": p.bays}), lambda p: 2 if p.two else 1, "its sides"

@@ -8,7 +8,7 @@ import numpy as np
 
 from cadplants.builder.device import Device, families_of
 from cadplants.builder.draws import of_form
-from cadplants.builder.params import Params, Source, among, between, chance, given, nested, whole
+from cadplants.builder.params import Params, When, among, between, chance, given, nested, whole
 from cadplants.builder.table import Table
 from cadplants.families.primitive.shape import (
     cone,
@@ -48,15 +48,16 @@ class _Plates(Params):
         return [lying(disc(radius, low, low + thick, t.style)) for low in (0.0, length - thick)]
 
 
-_TURNERS = ("nothing", "nothing", "disc", "crossed bars", "spokes", "bar", "diaphragm", "box", "barrel")
+_WHEELS = ("disc", "crossed bars", "spokes")
+_TURNERS = ("nothing", "nothing", *_WHEELS, "bar", "diaphragm", "box", "barrel")
 
 
 class _Turner(Params):
     """What turns a spindle: nothing, a wheel, a bar, a drive."""
 
-    wheel: float = between(0.9, 1.9, "(radius of a wheel - the next) / of the pipe")
-    rim: float = between(0.02, 0.06, "what that is wider by", "m")
     form: str = among(_TURNERS, "what it is")
+    wheel: float = between(0.9, 1.9, "(radius of a wheel - the next) / of the pipe", when=of_form(*_WHEELS))
+    rim: float = between(0.02, 0.06, "what that is wider by", "m", when=of_form(*_WHEELS))
     spokes: int = whole(3, 5, "spokes of a wheel", when=of_form("spokes"))
     one: bool = chance(0.5, "rim and spokes are one mesh", when=of_form("spokes"))
     reach: float = between(0.08, 0.2, "length of a bar - 2.2 radii of the pipe", "m", when=of_form("bar"))
@@ -126,8 +127,9 @@ class _Top(Params):
         self.turner.build(t, rise)
 
 
-def _flanged() -> float:
-    return among((0.1, 0.4, 0.6, 0.8, 1.0), "radius of its ends: 0 of the pipe, 1 of the flange")
+def _flanged(when: When | None = None) -> float:
+    said = "radius of its ends: 0 of the pipe, 1 of the flange"
+    return among((0.1, 0.4, 0.6, 0.8, 1.0), said, when=when, otherwise=0.0)
 
 
 def _screwed() -> float:
@@ -196,15 +198,13 @@ class SmallTwoCones(TwoCones, name="valve/small two cones", sizes=_SMALL, weight
     plates: _Plates = _no_plates()
 
 
-class Hourglass(_Valve, name="valve/hourglass", weight=3):
+class _Waisted(_Valve):
     """A body with a waist as one surface of revolution."""
 
     wide: float = _flanged()
     waist: float = between(0.15, 0.6, _WAIST)
     flat: float = among((0.0, 0.06, 0.15), "length of a straight end / face to face")
     plates: _Plates = _plates()
-    top: _Top = _top()
-    called: str = _called()
 
     def body(self, t: Table) -> list[Solid]:
         """The solids of its body."""
@@ -213,6 +213,13 @@ class Hourglass(_Valve, name="valve/hourglass", weight=3):
         ends = [(wide, 0.0), (wide, flat)][: 2 if flat else 1]
         outline = [*ends, (wide * self.waist, length / 2), *((r, length - x) for r, x in ends[::-1])]
         return [lying(turned(outline, t.n(wide))), *(self.plates.solids(t, length) if self.plates else [])]
+
+
+class Hourglass(_Waisted, name="valve/hourglass", weight=3):
+    """A body with a waist as one surface of revolution, and a spindle."""
+
+    top: _Top = _top()
+    called: str = _called()
 
     def build(self, t: Table) -> Model:
         length = self.face_to_face(t)
@@ -315,14 +322,9 @@ class ThreeCones(_Valve, name="valve/three cones", weight=2):
         cones = [(wide, waist, 0.0, length / 2), (waist, wide, length / 2, length)]
         t.add(_BODY, *(lying(cone(*one, style)) for one in cones))
         hood = cone(waist, wide * self.hood, 0.0, high, style) if self.flared else disc(waist, 0, high, style)
-        t.add("valve bonnet", hood)
+        t.at(length / 2).add("valve bonnet", hood)
         self.top.build(t, length / 2, 0.9 * high)
         return t.model(length, self.joint, "globe valve")
-
-
-def _body_alone(source: Source, dn: int) -> Hourglass:
-    """A body with a waist as those have that stand by themselves, whose spindle goes unused."""
-    return Hourglass.draw(source, {"dn": dn})
 
 
 class ConesAndDish(
@@ -337,7 +339,7 @@ class ConesAndDish(
 ):
     """Two cones, a spindle and a dish or a barrel over it."""
 
-    body: Hourglass = nested(lambda s, p: _body_alone(s, p.dn), "body")
+    body: _Waisted = nested(_Waisted, "body", fixed=lambda p: {"dn": p.dn})
     rise: float = between(0.1, 0.25, "height of the spindle - 2.2 radii of the pipe", "m")
     wide: float = between(0.04, 0.12, "radius of the dish - 1.6 of the pipe", "m")
 
@@ -355,8 +357,8 @@ class ConesAndDish(
 class NoSpindle(_Valve, name="valve/no spindle", weight=1.5):
     """A body without a spindle: an hourglass with a bar across, a cylinder or a ball, maybe a flat lid."""
 
-    wide: float = _flanged()
     form: str = among(("hourglass", "cone", "ball"), "its body")
+    wide: float = _flanged(lambda p: p.form != "ball")
     barred: bool = chance(0.5, "a bar across the waist", when=of_form("hourglass"))
     plates: _Plates = _plates()
     lidded: bool = chance(0.4, "a flat lid")
@@ -498,8 +500,8 @@ class Melted(
     wide: float = between(1.2, 1.5, "radius of its ends / of the pipe")
     hub: float = between(0.9, 1.3, "radius of its bonnet / of the pipe")
     rise: float = between(1.8, 3.0, "height of its spindle / radius of the pipe")
-    wheel: float = between(1.2, 2.2, "(radius of its wheel - 10 mm) / of the pipe")
     wheeled: bool = chance(0.5, "a wheel, not a bar")
+    wheel: float = between(1.2, 2.2, "(radius of its wheel - 10 mm) / of the pipe", when=lambda p: p.wheeled)
     reach: float = between(0.04, 0.1, "length of the bar - 2.5 radii of the pipe", "m", when=lambda p: not p.wheeled)
     called: str = among(("ball valve", "gate valve", "globe valve"), "what it is taken for")
 
