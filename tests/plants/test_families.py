@@ -67,23 +67,6 @@ def test_every_family_is_closed_and_labelled_in_every_hand():
     ] == []
 
 
-def vertices_of(family):
-    style = STYLES["game"]
-    return [
-        (c.name, c.vertices) for c in as_assembly(family, built(family, sizes(family)[0], style, 5), style).components
-    ]
-
-
-@pytest.mark.slow
-def test_the_same_seed_builds_the_same_shape():
-    assert [
-        family.name
-        for family in ALL_FAMILIES.values()
-        for first, second in zip(vertices_of(family), vertices_of(family), strict=True)
-        if first[0] != second[0] or not np.array_equal(first[1], second[1])
-    ] == []
-
-
 def reaches_from_end_to_end(family):
     """Whether the device has a face at either end of its length, about as wide as the line."""
     dn, style = sizes(family)[1 if len(sizes(family)) > 1 else 0], STYLES["plant-design"]

@@ -12,6 +12,7 @@ from cadlab.training.real import read_real_parts, read_real_plants, side_by_side
 from cadlab.training.samples import Sample, held_out_lessons, training_samples
 from cadplants.authoring_systems import SYSTEMS
 from cadplants.preset import make
+from cadplants.single_device import make_device
 from cadplants.usd import write_usd
 
 
@@ -57,7 +58,7 @@ def real(tmp_path_factory):
         (("one", "MIT"), ("two", "CC-BY-SA-4.0"), ("three", "CC0"), ("four", "GPL-3.0"))
     ):
         (folder / "parts" / maker).mkdir(parents=True)
-        truth = write_usd(make("riser", k, "bim"), folder / "parts" / maker / "p0.usdc")
+        truth = write_usd(make_device("gate valve/forged", k, "bim"), folder / "parts" / maker / "p0.usdc")
         first = json.loads(truth.read_text())["meshes"][0]
         if k == 2:
             first = {"mesh": first["mesh"], "group": "none", "name": ""}
