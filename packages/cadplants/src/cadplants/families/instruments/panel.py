@@ -15,6 +15,7 @@ from cadplants.families.valves.valve import bolt_circle, disc_flange
 from cadplants.family import Model
 from cadplants.flange import plate_thickness
 from cadplants.mesh_ops import extrude, moved, sweep
+from cadplants.plant import Turning
 from cadplants.polygon import circle, rounded_rectangle
 from cadplants.primitives import along, box, cylinder, hexagon, ring, rod, rope
 from cadplants.standards import PIPES
@@ -81,7 +82,7 @@ class _WallGauge(Params):
     """A gauge on a wall, with its tube."""
 
     design: str = among(("plain", "safety", "cast"), "how its case is made")
-    dial: Dial = nested(lambda s, p: Dial.draw(s, {"design": p.design}), "case with its dial")
+    dial: Dial = nested(Dial, "case with its dial", fixed=lambda p: {"design": p.design})
     disc: bool = chance(0.6, "its rear flange is round, not a strap")
     foot: Shank = nested(Shank, "connection")
     clip: bool = chance(0.6, "a clip holds its tube")
@@ -101,7 +102,7 @@ class _WallGauge(Params):
         drop = [(0, y, low - 0.036), (0, y, low - 0.12), (0, -0.012, low - 0.2), (0, -0.012, 0.25)]
         put(t, STEM, bent(drop, 0.004, t.style))
         if self.clip:
-            t.add("clamp", box((0.04, 0.014, 0.012), (0, -0.007, 0.75 * low)))
+            t.add("clamp", box((0.04, 0.014, 0.012), (0, -0.007, low - 0.3)))
 
 
 class OnWall(_Mounted, name="gauge/wall"):
@@ -115,7 +116,7 @@ class OnWall(_Mounted, name="gauge/wall"):
 
     def build(self, t: Table) -> Model:
         size, pitch = self.size, 1.7 * self.size
-        self.board.build(t, pitch * self.count + 0.2, self.middle - 1.2 * size, self.middle + size)
+        self.board.build(t, pitch * self.count + 0.2, self.middle - 0.5 * size - 0.35, self.middle + size)
         for k, gauge in enumerate(self.gauges):
             gauge.build(t.at((k - (self.count - 1) / 2) * pitch), size, self.middle)
         return t.model(kind=_KIND)
@@ -161,7 +162,7 @@ class _Edgewise(Params):
 
     fan: bool = given(False, "its scale is a fan")
     deep: float = between(0.03, 0.06, "depth of its case", "m")
-    swing: float = between(-0.35, 0.35, "where the needle of a fan points", "rad")
+    swing: float = between(-0.35, 0.35, "where the needle of a fan points", "rad", when=lambda p: p.fan)
     level: float = between(-0.3, 0.3, "height of an upright scale's needle / of the case", when=lambda p: not p.fan)
     glazed: bool = chance(0.5, "has a window")
 
@@ -169,13 +170,15 @@ class _Edgewise(Params):
         """Puts it down with its back on z = 0, this high [m]."""
         shape, deep, wide = self._shape(tall), self.deep, 0.5 * tall
         if self.fan:
-            pose = at(0, -0.35 * tall, 0.8 * deep + 0.002) @ spun("z", self.swing)
-            needle = moved(box((0.004, 0.7 * tall, 0.001), (0, 0.35 * tall, 0)), pose)
+            pivot = (0.0, -0.35 * tall, 0.8 * deep + 0.002)
+            hand, turns = at(*pivot) @ spun("z", self.swing), Turning("needle", point=pivot)
+            needle = moved(box((0.004, 0.7 * tall, 0.001), (0, 0.35 * tall, 0)), hand)
         else:
+            turns = None
             needle = box((0.5 * wide, 0.006, 0.001), (0.1 * wide, self.level * tall, 0.8 * deep + 0.002))
         t.add(CASE, extrude(0.9 * shape, 0.0, 0.8 * deep), extrude(shape, 0.78 * deep, deep, (0.82 * shape,)))
         t.add("gauge face", extrude(0.81 * shape, 0.8 * deep, 0.8 * deep + 0.0015), front=FRONT)
-        t.add("gauge needle", needle, front=FRONT)
+        t.add("gauge needle", needle, turns=turns, front=FRONT)
         if self.glazed:
             t.add("gauge glass", extrude(0.815 * shape, 0.94 * deep, 0.96 * deep), front=FRONT)
 
@@ -251,9 +254,10 @@ class UTube(_Mounted, name="gauge/u-tube"):
         turn = np.linspace(np.pi, 2 * np.pi, 9)
         foot = [(apart * np.cos(a), y, low + apart * (1 + np.sin(a))) for a in turn]
         path = [(-apart, y, low + span), *foot, (apart, y, low + span)]
-        t.add("gauge glass", rope(path, 0.0055, fine_sides(0.0055, t.style, 10)))
+        t.add("gauge glass", rope(path, 0.0055, fine_sides(0.0055, t.style, 10)), front=(0.0, -1.0, 0.0))
         ticks = [box((0.8 * apart, 0.001, 0.0015), (0, -0.0145, low + s * span)) for s in np.linspace(0.12, 0.9, 14)]
-        t.add("gauge face", box((1.1 * apart, 0.002, 0.9 * span), (0, -0.013, low + 0.52 * span)), *ticks)
+        scale = box((1.1 * apart, 0.002, 0.9 * span), (0, -0.013, low + 0.52 * span))
+        t.add("gauge face", scale, *ticks, front=(0.0, -1.0, 0.0))
         for x in (-apart, apart):
             put(t.at(x, y, low + span - 0.005), STEM, cylinder(0.009, 0.0, 0.03, 12), hexagon(0.022, 0.02, 0.035))
             way = [(x, y, low + span + 0.025), (x, y, low + span + 0.09), (3.5 * x, y, low + span + 0.07)]
@@ -297,7 +301,7 @@ class Draught(_Mounted, name="gauge/draught"):
     middle: float = between(1.0, 1.5, _MIDDLE, "m")
     wide: float = between(0.5, 0.9, "width of the duct", "m")
     deep: float = between(0.3, 0.6, "depth of the duct", "m")
-    dial: Dial = nested(lambda s, _: Dial.draw(s, {"design": "plain", "deep": 0.45}), "case with its dial")
+    dial: Dial = nested(Dial, "case with its dial", fixed=lambda _: {"design": "plain", "deep": 0.45})
 
     def build(self, t: Table) -> Model:
         size, z, wide, deep = self.size, self.middle, self.wide, self.deep
@@ -319,7 +323,7 @@ class OnPost(_Mounted, name="gauge/post"):
 
     height: float = between(0.6, 1.3, "of the post", "m")
     size: float = among((0.063, 0.1), _SIZE, "m")
-    gauge: StandingGauge = nested(lambda s, p: StandingGauge.draw(s, {"size": p.size}), "gauge")
+    gauge: StandingGauge = nested(StandingGauge, "gauge", fixed=lambda p: {"size": p.size})
 
     def build(self, t: Table) -> Model:
         height, w, y, z = self.height, 0.04, -0.07, self.height - 0.06

@@ -170,9 +170,9 @@ class Station(Utility, name="control panel/station", weight=1.2, bundle="control
     """A control panel: a wall box on legs, a desk with a sloping top, or a row of doors with handles and lamps."""
 
     form: str = among(("box", "desk", "row"), "what it is")
-    width: float = between(0.4, 1.0, "of a box, or half a desk's", "m")
-    depth: float = between(0.2, 0.4, "of a box", "m")
-    height: float = between(0.5, 1.1, "of a box", "m")
+    width: float = between(0.4, 1.0, "of a box, or half a desk's", "m", when=of_form("box", "desk"))
+    depth: float = between(0.2, 0.4, "of a box", "m", when=of_form("box"))
+    height: float = between(0.5, 1.1, "of a box", "m", when=of_form("box"))
     legs: float = between(0.6, 1.0, "height of a box's legs", "m", when=of_form("box"))
     count: int = whole(2, 4, "cabinets in a row", when=of_form("row"))
 
