@@ -14,7 +14,7 @@ from cadplants.families.valves.threaded import hex_end
 from cadplants.families.valves.valve import bolt_circle, disc_flange
 from cadplants.family import Model, Port
 from cadplants.mesh_ops import Solid, extrude, merge, moved
-from cadplants.polygon import rounded_rectangle
+from cadplants.polygon import circle, rounded_rectangle
 from cadplants.primitives import along, around, box, cylinder, hexagon, ring, turned
 from cadplants.standards import FLANGES, PIPES, sizes_between
 from cadplants.transforms import at, looking, spun
@@ -60,12 +60,14 @@ class ClearTube(FlowMeter, name="flow meter/clear tube", sizes=_SMALL):
         low, high, place = 0.2 * length, 0.8 * length, self.level * length
         ends = [hex_end(self.dn, a * length, b * length, t.style, 8) for a, b in ((0, 0.1), (0.9, 1))]
         grip = around(box((0.2 * r, 0.3 * r, 0.1 * length), (0, 0, 0.15 * length)), 10, 1.42 * r)
-        nut = along("x", merge([cylinder(1.45 * r, 0.09 * length, low, n), grip]))
+        bore = bore_of(self.dn, t.style)
+        nut = along("x", merge([ring(bore, 1.45 * r, 0.09 * length, low, n), grip]))
         t.add(NAME, *ends, nut, moved(nut, at(length) @ spun("z", np.pi)), of="rubber")
         if self.cone:
-            clear = turned(outline(0.95 * r, low - 0.002, 1.25 * r, high + 0.002), n)
+            clear = turned(outline(0.95 * r, low - 0.002, 1.25 * r, high + 0.002), n, bore=0.8 * r if bore else 0.0)
         else:
-            clear = extrude(rounded_rectangle(2.6 * r, 2.2 * r, 0.15 * r, 2), low - 0.002, high + 0.002)
+            block, holes = rounded_rectangle(2.6 * r, 2.2 * r, 0.15 * r, 2), (circle(0.8 * r, n),) if bore else ()
+            clear = extrude(block, low - 0.002, high + 0.002, holes)
         line.add("gauge glass", clear)
         # A rod guides the float from end to end.
         bob = turned(outline(0.1 * r, place - 0.4 * r, 0.7 * r, place, 0.7 * r, place + 0.2 * r), 12)

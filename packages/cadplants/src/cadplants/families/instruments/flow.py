@@ -86,7 +86,7 @@ class _Impulse(Params):
 
 
 class Ultrasonic(FlowMeter, name="flow meter/ultrasonic"):
-    """An inline ultrasonic meter: slanting transducer pockets on both sides of a spool, cables, a box on a neck."""
+    """An inline ultrasonic meter: slanting transducer pockets on both sides of a spool, a box on a neck."""
 
     long: float = between(3.5, 6, "its length over 0.22 m / radius of the pipe")
     lean: float = between(0.6, 0.9, "of the pockets", "rad")
@@ -139,7 +139,12 @@ class ClampOn(FlowMeter, name="flow meter/clamp-on", place="carrier"):
             size = (2 * apart + long + 0.02, 0.004, 0.02)
             t.add(NAME, *(box(size, (0, s * (wide / 2 + 0.002), r + 0.012)) for s in (-1, 1)), of="steel")
         lead = [(-apart, 0, top), (-apart, 0, top + 0.05), (-0.2 * apart, 0, top + 0.07), (0, 0, top + 0.14)]
-        t.add(NAME, bent(lead, 0.003, t.style), of="rubber")
+        other = [(-x, y, z) for x, y, z in lead]
+        if self.opposite:  # it comes up before the pipe
+            far = top + 0.03
+            other = [(apart, 0, -top), (apart, 0, -far), (apart, -far, -far), (apart, -far, top)]
+            other += [(0.2 * apart, -0.02, top + 0.1), (0, 0, top + 0.14)]
+        t.add(NAME, *(bent(way, 0.003, t.style) for way in (lead, other)), of="rubber")
         # The box stands on a strip that a third band holds behind it.
         strip = box((0.025, 0.004, top + 0.19), (0, r + 0.0022, (top + 0.19) / 2))
         arm = box((0.025, r + 0.004, 0.004), (0, (r + 0.004) / 2, top + 0.137))

@@ -439,7 +439,8 @@ class Rotameter(FlowMeter, name="flow meter/rotameter", sizes=_SOME):
         line.add(NAME, plate)
         t.at(length).along("-x").add(NAME, plate)
         if self.glass:
-            line.add("gauge glass", turned(outline(0.9 * radius, low + 0.028, 1.15 * radius, length - low - 0.028), n))
+            cone = outline(0.9 * radius, low + 0.028, 1.15 * radius, length - low - 0.028)
+            line.add("gauge glass", turned(cone, n, bore=0.83 * radius if t.style.hollow else 0.0))
             t.add("stud", about_x(around(cylinder(0.005, low, length - low, 8), 4, 1.7 * radius, np.pi / 4)))
             bob = outline(0.2 * radius, 0.45 * length, 0.8 * radius, 0.5 * length, 0.8 * radius, 0.53 * length)
             line.add("gauge needle", turned(bob, n), of="trim")
@@ -479,7 +480,10 @@ class FlangedSight(SightGlass, name="sight glass/flanged", sizes=_SOME):
         port += [ring(radius, 1.6 * radius + 0.01, s * reach - 0.008, s * reach + 0.008, n) for s in (-1, 1)]
         t.add(SIGHT_GLASS, body, *(along("y", solid, length / 2) for solid in port), of="valve")
         panes = [cylinder(radius, s * reach - 0.006, s * reach + 0.006, n) for s in (-1, 1)]
-        t.at(length / 2).along("-y").add("gauge glass", *panes[::-1], front=FRONT)
+        across = t.at(length / 2).along("-y")
+        across.add("gauge glass", *panes[::-1], front=FRONT)
+        far, thread = 1.3 * radius + 0.006, 0.004 + 0.05 * radius
+        across.add("bolt", *(bolt_circle(6, far, thread, s * reach - 0.008, s * reach + 0.008) for s in (-1, 1)))
         return round(length, 6)
 
     def _tube(self, t: Table) -> float:

@@ -340,7 +340,8 @@ class FullView(SightGlass, name="sight glass/full view", sizes=_SMALL):
         n, low, thick, line = t.n(r), 0.17 * length, 0.012, t.along("x")
         caps = [hex_end(self.dn, a, b, t.style) for a, b in ((0, low), (length - low, length))]
         square = rounded_rectangle(side, side, 0.2 * side, 3)
-        plate = extrude(square, low - thick, low) if self.square else cylinder(0.6 * side, low - thick, low, n)
+        plan = square if self.square else circle(0.6 * side, n)
+        plate = extrude(plan, low - thick, low, (circle(bore_of(self.dn, t.style), n),) if t.style.hollow else ())
         caps += [along("x", plate), along("x", plate, length - 2 * low + thick)]
         t.add(SIGHT_GLASS, *caps)
         line.add("gauge glass", ring(0.85 * r, r, low, length - low, n))

@@ -118,20 +118,22 @@ class WallConduit(Utility, name="conduit/wall"):
 
     def build(self, t: Table) -> Model:
         r, h, n = self.radius, self.height, t.n(self.radius, 6, 12)
-        t.add("wall", box((2.4, 0.15, h + 0.4), (1.0, 0.1, (h + 0.4) / 2)))
+        t.add("wall", box((2.6, 0.15, h + 0.4), (1.1, 0.1, (h + 0.4) / 2)))
         for k, run in enumerate(one for one in (self.first, self.second, self.third) if one is not None):
-            x, y, top, s = 0.3 * k, 0.02 - r, h - 0.05 - 0.1 * k, run.box
-            bend = [(x, 0.1), (x, top - 0.1), (x + 0.02, top - 0.02), (x + 0.1, top), (1.7 + 0.1 * k, top)]
+            x, y, top, s, end = 0.3 * k, 0.023 - r, h - 0.05 - 0.1 * k, run.box, 1.75 + 0.2 * k
+            bend = [(x, 0.1), (x, top - 0.1), (x + 0.02, top - 0.02), (x + 0.1, top), (end, top)]
             t.add("conduit", rope([(x, y, z) for x, z in bend], r, n))
             for z in (0.4, 0.5 * h):
                 ears = box((2 * r + 0.04, 0.002, 0.015), (x, y + r + 0.001, z))
                 t.add("clamp", ears, moved(ring(r, r + 0.002, -0.0075, 0.0075, 12), at(x, y, z)))
-            here = t.at(1.75 + 0.1 * k + 0.4 * s, 0.025, top)
+            mid = end + 0.4 * s
+            here = t.at(mid, 0.025, top)
             lid = box((1.04 * s, 0.1 * s, 1.04 * s), (0, -0.64 * s, 0))
             here.add("junction box", box((s, 0.6 * s, s), (0, -0.3 * s, 0)), lid)
             if run.tailed:
-                tail = [(1.75 + 0.4 * s, 0.025 - 0.3 * s, h - 0.05 - 0.5 * s), (1.75 + 0.4 * s, -0.02, h - 0.4)]
-                t.add("cable", rope([*tail, (1.9, -0.2, h - 0.7), (2.1, -0.3, 0.3)], 0.8 * r, n))
+                tail = [(mid, 0.025 - 0.3 * s, top - 0.5 * s), (mid, -0.02, top - 0.35)]
+                tail += [(mid + 0.1, -0.2, max(top - 0.65, 0.3)), (mid + 0.3, -0.3, 0.3)]
+                t.add("cable", rope(tail, 0.8 * r, n))
         return t.model()
 
 
@@ -322,7 +324,8 @@ class HoseReel(Utility, name="fire extinguisher/reel", weight=0.6, bundle="fire 
     def build(self, t: Table) -> Model:
         r, n, up = 0.26, t.n(0.26), t.at(0, 0, 1.0)
         reel = [along("y", cylinder(r, y, y + 0.01, n)) for y in (-0.12, 0.02)]
-        up.add("fire extinguisher", *reel, box((0.08, 0.16, 0.4), (0, 0.12, 0)))
+        hub = along("y", cylinder(0.3 * r, -0.13, 0.05, n))
+        up.add("fire extinguisher", *reel, hub, box((0.08, 0.16, 0.4), (0, 0.12, 0)))
         rings = [torus(0.8 * r - 0.02 * (k % 2), 0.015, t.n(r, 12), 6) for k in range(4)]
         coil = [moved(one, at(0, -0.1 + 0.03 * k) @ _UPRIGHT) for k, one in enumerate(rings)]
         tail = rope([(0.78 * r, -0.05, 0), (0.9 * r, -0.1, -0.3), (0.6 * r, -0.15, -0.5)], 0.013, 8)
