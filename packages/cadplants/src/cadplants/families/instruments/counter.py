@@ -269,7 +269,7 @@ class PickUp(FlowMeter, name="flow meter/pick-up"):
         if self.headed:
             head: list[Solid] = [moved(self.housing.solid(t.style), at(0, 0, top + 0.017))]
         else:
-            way = [(0, 0, top + 0.048), (0, 0, top + 0.09), (0.1, 0, top + 0.1), (0.16, 0, top)]
+            way = [(0, 0, top + 0.048), (0, 0, top + 0.09), (0, -0.1, top + 0.1), (0, -0.16, top)]
             head = [cylinder(0.013, top + 0.012, top + 0.05, 12), bent(way, 0.004, t.style)]
         put(t, "transmitter", *head, of="rubber")
         return t.model(length, kind=NAME)

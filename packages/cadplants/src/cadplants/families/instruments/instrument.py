@@ -365,7 +365,7 @@ class Turbine(FlowMeter, name="flow meter/turbine"):
 
     form: int = among((0, 1), "a plain tube, a drum")
     ratio: float = between(1.6, 2.6, _RATIO)
-    bare: bool = chance(0.6, "its face shows, no lid stands open")
+    lid: bool = chance(0.4, "an open lid")
 
     def build(self, t: Table) -> Model:
         length, top = _meter(t, self.form, self.ratio)
@@ -374,9 +374,8 @@ class Turbine(FlowMeter, name="flow meter/turbine"):
         t.add(NAME, cylinder(0.8 * r, 0.6 * top, top + 0.02, n))
         low, high = outline(r, top + 0.01, 1.05 * r, top + 0.03), outline(1.05 * r, top + 0.06, 0.95 * r, top + 0.075)
         case.add(CASE, turned([*low, *high], n), of="handle")
-        if self.bare:
-            case.add("gauge face", cylinder(0.9 * r, top + 0.0752, top + 0.077, n), front=FRONT)
-        else:
+        case.add("gauge face", cylinder(0.9 * r, top + 0.0752, top + 0.077, n), front=FRONT)
+        if self.lid:
             lid = case.at(0, 0.9 * r, top + 0.08).spun("x", 1.0).at(0, 0.9 * r)
             lid.add(CASE, cylinder(1.05 * r, 0.0, 0.006, n), of="handle")
         return t.model(length, kind=NAME)

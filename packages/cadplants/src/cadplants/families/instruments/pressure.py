@@ -390,7 +390,7 @@ class Refrigerant(SightGlass, name="sight glass/refrigerant", sizes=sizes_betwee
         middle.add(SIGHT_GLASS, stub, cylinder(r, -1.1 * radius, top, n), hexagon(2.1 * r, top - 0.012, top))
         middle.add("gauge glass", dome(0.8 * r, 0.3 * r, top, n), front=FRONT)
         if self.capped:
-            strap = rod((0, 0.9 * r, top - 0.004), (0, 1.9 * r, top + 0.01), 0.002, 6)
+            strap = rod((0, 0.9 * r, top - 0.004), (0, 2.7 * r, top + 0.012), 0.002, 6)
             cap = moved(cylinder(0.9 * r, 0.0, 0.008, n), at(0, 2.7 * r, top + 0.01) @ spun("x", 0.7))
             middle.add(SIGHT_GLASS, strap, cap, of="rubber")
         return t.model(length, "welded", SIGHT_GLASS)

@@ -69,10 +69,11 @@ class Tray(Utility, name="cable tray/ladder and basket", weight=1.5):
 
     def build(self, t: Table) -> Model:
         length, w, z = self.length, self.width, self.level
+        floor = z + {"ladder": 0.0275, "perforated": 0.0015}.get(self.form, 0.002)
         t.add("cable tray", *self._solids(), of="clamp")
         for k, cable in enumerate(self.cables):
             r, y = cable.radius, cable.off * w
-            path = [(f * length, y + 0.05 * w * np.sin(3 * f + k), z + 0.03 + r) for f in np.linspace(-0.05, 1.05, 7)]
+            path = [(f * length, y + 0.05 * w * np.sin(3 * f + k), floor + r) for f in np.linspace(-0.05, 1.05, 7)]
             t.add("cable", rope(path, r, t.n(r, 6, 12)), own=False)
         for x in (0.15 * length, 0.85 * length):
             t.add("post", box((0.05, 0.05, z - 0.03), (x, 0, (z - 0.03) / 2)))
@@ -184,7 +185,7 @@ class Station(Utility, name="control panel/station", weight=1.2, bundle="control
             self._box(t)
         elif self.form == "desk":
             t.add(name, about_x(extrude(np.array(outline(-0.35, 0, 0.35, 0, 0.35, 1.1, 0.1, 1.1, -0.35, 0.85)), -w, w)))
-            screen = moved(box((0.5, 0.02, 0.3)), at(0, 0.05, 1.35) @ spun("x", -0.2))
+            screen = moved(box((0.5, 0.02, 0.3)), at(0, 0.125, 1.35) @ spun("x", -0.2))
             t.add(name, screen, box((0.06, 0.04, 0.15), (0, 0.1, 1.15)), of="rubber")
         for k in range(self.count):
             here = t.at(0.62 * k)
@@ -250,7 +251,7 @@ class CameraOnPost(Utility, name="camera/post", weight=1.5, bundle="camera", gra
         name, h, n = "camera", self.height, t.n(0.04)
         if self.form == "bullet":
             body = along("-y", turned(outline(0.035, 0, 0.038, 0.15, 0.03, 0.16), n))
-            solids = [body, box((0.09, 0.22, 0.005), (0, -0.09, 0.042)), along("-y", cylinder(0.02, 0.155, 0.165, n))]
+            solids = [body, box((0.09, 0.22, 0.005), (0, -0.09, 0.039)), along("-y", cylinder(0.02, 0.155, 0.165, n))]
             t.at(0, -0.15, h + 0.03).spun("x", 0.25).add(name, *solids)
         elif self.form == "dome":
             ceiling = turned(outline(0.06, -0.01, 0.065, 0.02, 0.065, 0.06), n)
@@ -279,7 +280,7 @@ class SignOnPost(Utility, name="sign/shapes"):
             "triangle": circle(s, 3, phase=np.pi / 2),
             "octagon": circle(s, 8, phase=np.pi / 8),
         }[self.form]
-        t.at(0, -0.042, h).moved(_UPRIGHT).add("sign", extrude(shape, 0.0, 0.003))
+        t.at(0, -self.post.radius, h).moved(_UPRIGHT).add("sign", extrude(shape, 0.0, 0.003))
         self.post.build(t, h + s)
         return t.model()
 
@@ -302,7 +303,7 @@ class Bottle(Utility, name="fire extinguisher/bottle", bundle="fire extinguisher
         top.add(
             name,
             hexagon(0.7 * r, 0, 0.4 * r),
-            cylinder(0.22 * r, 0, 0.6 * r, 10),
+            cylinder(0.22 * r, 0, 0.7 * r, 10),
             box((1.5 * r, 0.25 * r, 0.06 * r), (0.55 * r, 0, 0.65 * r)),
             lever,
             along("-y", cylinder(0.2 * r, 0.0, 0.15 * r, 10), 0, -0.3 * r, 0.2 * r),
@@ -326,8 +327,8 @@ class HoseReel(Utility, name="fire extinguisher/reel", weight=0.6, bundle="fire 
         reel = [along("y", cylinder(r, y, y + 0.01, n)) for y in (-0.12, 0.02)]
         hub = along("y", cylinder(0.3 * r, -0.13, 0.05, n))
         up.add("fire extinguisher", *reel, hub, box((0.08, 0.16, 0.4), (0, 0.12, 0)))
-        rings = [torus(0.8 * r - 0.02 * (k % 2), 0.015, t.n(r, 12), 6) for k in range(4)]
-        coil = [moved(one, at(0, -0.1 + 0.03 * k) @ _UPRIGHT) for k, one in enumerate(rings)]
+        rings = [torus(0.8 * r - 0.005 * (k % 2), 0.018, t.n(r, 12), 6) for k in range(4)]
+        coil = [moved(one, at(0, -0.1 + 0.028 * k) @ _UPRIGHT) for k, one in enumerate(rings)]
         tail = rope([(0.78 * r, -0.05, 0), (0.9 * r, -0.1, -0.3), (0.6 * r, -0.15, -0.5)], 0.013, 8)
         up.add("hose", *coil, tail)
         t.add("wall", box((0.9, 0.15, 1.8), (0, 0.275, 0.9)))

@@ -107,7 +107,7 @@ class _Housing(_Head):
         w, long, y = 0.1 * s, self.long * s, -0.12
         body = moved(about_x(extrude(rounded_rectangle(w, 0.9 * w, 0.15 * w, 3), 0, long)), spun("z", -np.pi / 2))
         head = t.at(0, y).spun("x", self.tilt)
-        roof = box((1.25 * w, long + 0.08, 0.005), (0, -long / 2 - 0.02, 0.5 * w))
+        roof = box((1.25 * w, long + 0.08, 0.005), (0, -long / 2 - 0.02, 0.45 * w + 0.002))
         head.add(_C, body, roof, of="electrical")
         head.add(_C, box((0.8 * w, 0.006, 0.7 * w), (0, -long - 0.002, 0)), of="rubber")
         arm = rope([(0, 0.0, -0.22), (0, y - 0.1, -0.16), (0, y - 0.12, -0.05)], 0.018, 8)
