@@ -83,8 +83,9 @@ class Kept(_Extinguisher, name="fire extinguisher/kept", weight=1.5):
     def _cabinet(self, t: Table, tall: float) -> None:
         """The extinguisher in its cabinet of this height [m]."""
         r, mid = self.radius, tall / 2
-        w, d = max(0.3, 4.2 * r), 2 * r + 0.1
-        self._unit(t.at(0.6 * r, -d / 2, 0.01))
+        horn = self.form == "horn"
+        w, d = max(0.3, (5.0 if horn else 4.2) * r), 2 * r + 0.1
+        self._unit(t.at(0.7 * r if horn else 0.0, -d / 2, 0.01))
         case = [box((0.01, d, tall), (q * (w / 2 - 0.005), -d / 2, mid)) for q in BOTH]
         case += [box((w, d, 0.01), (0, -d / 2, q)) for q in (0.005, tall - 0.005)]
         case += [box((w, 0.01, tall), (0, -0.005, mid))]
