@@ -136,23 +136,25 @@ class CapillarySeal(_Mounted, name="gauge/capillary seal"):
 
     def build(self, t: Table) -> Model:
         size, pipe, out, low = self.size, PIPES[self.pipe], self.out, self.low
-        thick, z = plate_thickness(self.pipe), self.height - 0.15
+        thick, z, deep = plate_thickness(self.pipe), self.height - 0.15, self.dial.reach(self.size)
+        y = -max(0.052, 0.04 + deep / 2)  # clear of the post behind its case
         self.stand.build(t, self.height)
-        plates = [box((0.05, 0.05, 0.006), (0, -0.05, z - 0.003)), box((0.08, 0.006, 0.09), (0, -0.0332, z - 0.04))]
+        shelf = box((0.05, -0.005 - y, 0.006), (0, (y - 0.055) / 2, z - 0.003))
+        plates = [shelf, box((0.08, 0.006, 0.09), (0, -0.0332, z - 0.04))]
         t.add("bracket", *plates, of="clamp")
         end = t.at(out, 0, low)
         t.at(out).add("pipe", cylinder(pipe.radius, 0.0, low - 0.06, t.n(pipe.radius)))
         end.along("-z").add("flange", disc_flange(self.pipe, t.style, 0.061))
         nipple = along("x", hexagon(0.02, 0.0, 0.05), 0.3 * pipe.outer, 0, thick + 0.006)
         put(end, STEM, disc_flange(self.pipe, t.style, thick + 0.012), nipple)
-        gauge = t.at(0, -0.052)
+        gauge = t.at(0, y)
         self.foot.build(gauge, z - 0.02, z + 0.042, size)
-        self.dial.build(upright(gauge, size, z + 0.04, self.dial.reach(size)), size)
+        self.dial.build(upright(gauge, size, z + 0.04, deep), size)
         hang = out + 0.3 * pipe.outer + 0.05
-        line = [(0, 0, z - 0.018), (0, 0, z - 0.12), (0.4 * out, 0.02, 0.45 * low), (hang + 0.12, 0.01, 0.7 * low)]
+        line = [(0, 0, z - 0.018), (0, 0, z - 0.12), (0.4 * out, -0.05, 0.45 * low), (hang + 0.12, -0.12, 0.7 * low)]
         line += [(hang + 0.1, 0, low + thick + 0.006), (hang - 0.002, 0, low + thick + 0.006)]
-        # The capillary starts under the gauge, before the post, and ends in the standpipe's plane.
-        way = [(x, y - 0.052 * (1 - x / (hang + 0.12)), z) for x, y, z in line]
+        # The capillary starts under the gauge, before the post, passes the standpipe and ends in its plane.
+        way = [(a, b + y * (1 - a / (hang + 0.12)), c) for a, b, c in line]
         put(t, STEM, bent(way, 0.0035, t.style), of="rubber")
         return t.model(kind=_KIND)
 
@@ -221,16 +223,18 @@ class Differential(_Mounted, name="gauge/differential"):
     def build(self, t: Table) -> Model:
         r, n, z, y = self.radius, t.n(0.05), self.height - 0.1, -0.2
         self.stand.build(t, self.height)
-        cell, low = t.at(0, y, z).along("x"), z - r - 0.022
+        # The manifold is below the dial's case, so that its handles turn.
+        cell, low = t.at(0, y, z).along("x"), z - max(r + 0.022, 0.6 * self.size + 0.015)
         plates = [cylinder(r, a, b, n) for a, b in ((-0.032, -0.002), (0.002, 0.032))]
         cell.add(CASE, *plates, cylinder(0.8 * r, -0.003, 0.003, n))
         cell.add("bolt", bolt_circle(self.bolts, 0.85 * r, 0.008, -0.032, 0.032))
         self.dial.build(t.at(0, y - 0.9 * r, z).along("-y"), self.size)
         tees = [along(a, t_handle(0.05, 0.04), s * 0.044, y, low) for a, s in (("x", 1), ("-x", -1))]
         tees.append(along("-y", t_handle(0.05, 0.04), 0, y - 0.019, low - 0.008))
-        put(t, STEM, box((0.09, 0.04, 0.05), (0, y, low)), *tees)
+        necks = [moved(cylinder(0.008, low, z - 0.9 * r, 10), at(x, y)) for x in (-0.017, 0.017)]
+        put(t, STEM, box((0.09, 0.04, 0.05), (0, y, low)), *necks, *tees)
         for x in (-0.027, 0.027):
-            way = [(x, y, z - r - 0.04), (x, y, z - r - 0.15), (2 * x, y + 0.05, 0.5 * z), (2 * x, y + 0.05, 0.1)]
+            way = [(x, y, low - 0.018), (x, y, low - 0.128), (2 * x, y + 0.05, 0.5 * z), (2 * x, y + 0.05, 0.1)]
             put(t, STEM, bent(way, 0.005, t.style))
         arm = box((0.04, -y - 0.035, 0.006), (0, y / 2 - 0.017, z + r - 0.01))
         t.add("bracket", box((0.06, 0.006, 0.08), (0, -0.0332, z)), arm, of="clamp")
