@@ -138,7 +138,12 @@ class ClampOn(FlowMeter, name="flow meter/clamp-on", place="carrier"):
         if self.railed:
             size = (2 * apart + long + 0.02, 0.004, 0.02)
             t.add(NAME, *(box(size, (0, s * (wide / 2 + 0.002), r + 0.012)) for s in (-1, 1)), of="steel")
-        lead = [(-apart, 0, top), (-apart, 0, top + 0.05), (-0.2 * apart, 0, top + 0.07), (0, 0, top + 0.14)]
+        lead: list[tuple[float, float, float]] = [
+            (-apart, 0, top),
+            (-apart, 0, top + 0.05),
+            (-0.2 * apart, 0, top + 0.07),
+            (0, 0, top + 0.14),
+        ]
         other = [(-x, y, z) for x, y, z in lead]
         if self.opposite:  # it comes up before the pipe
             far = top + 0.03

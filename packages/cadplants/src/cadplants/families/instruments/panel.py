@@ -237,7 +237,7 @@ class Differential(_Mounted, name="gauge/differential"):
             way = [(x, y, low - 0.018), (x, y, low - 0.128), (2 * x, y + 0.05, 0.5 * z), (2 * x, y + 0.05, 0.1)]
             put(t, STEM, bent(way, 0.005, t.style))
         arm = box((0.04, -y - 0.035, 0.006), (0, y / 2 - 0.017, z + r - 0.01))
-        t.add("bracket", box((0.06, 0.006, 0.08), (0, -0.0332, z)), arm, of="clamp")
+        t.add("bracket", box((0.06, 0.006, 2 * r), (0, -0.0332, z)), arm, of="clamp")
         return t.model(kind=_DIFFERENTIAL)
 
 

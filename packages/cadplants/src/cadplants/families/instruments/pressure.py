@@ -192,7 +192,9 @@ class PipeStand(_Transmitter, name="transmitter/pipe stand", place="floor"):
     tall: float = among((0.03, 0.06), "height of the manifold", "m")
     valves: int = among((2, 3, 5), "of the manifold")
     coplanar: bool = chance(0.6, COPLANAR)
-    head: DifferentialHead = nested(DifferentialHead, _CELL, fixed=lambda p: {"coplanar": p.coplanar})
+    head: DifferentialHead = nested(
+        DifferentialHead, _CELL, fixed=lambda p: {"coplanar": p.coplanar, "housing.both": False}
+    )
 
     def build(self, t: Table) -> Model:
         z, y, wide, tall = self.height - 0.3, -0.16, 0.1, self.tall
@@ -202,7 +204,7 @@ class PipeStand(_Transmitter, name="transmitter/pipe stand", place="floor"):
             block.append(along("-y", t_handle(0.06, 0.05), float(x), y - 0.035, half))
         block[1:1] = [along("-x", t_handle(0.06, 0.05), -0.5 * wide, y, half)]
         put(t, STEM, *block, along("x", t_handle(0.06, 0.05), 0.5 * wide, y, half))
-        self.head.build(t.at(0, y, z))
+        self.head.build(t.at(0, y, z).spun("z", np.pi))  # its gland away from the stand
         for x in (-0.027, 0.027):
             nut = moved(hexagon(0.018, -0.02, 0.001), at(x, y, z - tall))
             way = [(x, y, z - tall - 0.01), (x, y, z - tall - 0.12), (x, y - 0.12, 0.4 * z), (1.5 * x, y - 0.12, 0.08)]

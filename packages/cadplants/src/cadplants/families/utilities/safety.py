@@ -150,20 +150,20 @@ class BoxOnPost(Utility, name="junction box/post", bundle="junction box", grain=
     post: _Post = nested(_Post, "post")
 
     def build(self, t: Table) -> Model:
-        h, s, n = self.height, self.width, 12
+        h, s, n, y = self.height, self.width, 12, 0.001 - self.post.radius
         d, tall = self.depth * s, self.tall * s
-        front, low = t.at(0, -0.04, h).moved(_UPRIGHT), h - tall / 2
+        front, low = t.at(0, y, h).moved(_UPRIGHT), h - tall / 2
         front.add("junction box", extrude(rounded_rectangle(s, tall, 0.08 * s, 3), 0.0, d))
         front.add("junction box", extrude(rounded_rectangle(1.02 * s, 1.02 * tall, 0.08 * s, 3), d, 1.15 * d))
         for x in (-0.25, 0.25):
             gland = [hexagon(0.026, -0.02, 0.0), cylinder(0.01, -0.035, 0.0, n)]
-            t.at(x * s, -0.04 - d / 2, low).add("junction box", *gland)
+            t.at(x * s, y - d / 2, low).add("junction box", *gland)
         for z in (-0.25, 0.0, 0.25) if self.buttons else ():
-            button = t.at(0, -0.04 - 1.15 * d, h + z * tall).along("-y")
+            button = t.at(0, y - 1.15 * d, h + z * tall).along("-y")
             button.add("junction box", cylinder(0.016, 0, 0.02, n), cylinder(0.02, 0.0, 0.008, n))
         for x, there in zip((-0.25, 0.25), self.cables, strict=True):
             if there:
-                path = [(x * s, -0.04 - d / 2, low - 0.03), (x * s, -0.05, low - 0.2), (x * s, 0.04, 0.15)]
+                path = [(x * s, y - d / 2, low - 0.03), (x * s, y - 0.015, low - 0.2), (x * s, y - 0.015, 0.03)]
                 t.add("cable", rope(path, 0.007, 8), own=False)
         self.post.build(t, h + 0.1)
         return t.model()
@@ -219,7 +219,7 @@ class LampHead(Utility, name="lamp/head", bundle="lamp", grain="structure"):
         self.post.build(t, h)
         up = t.at(0, 0, h)
         if self.form == "bulkhead":
-            front = up.at(0, -0.03, -0.1).moved(_UPRIGHT)
+            front = up.at(0, 0.003 - self.post.radius, -0.1).moved(_UPRIGHT)
             front.add(name, turned(outline(0.09, 0, 0.09, 0.03, 0.07, 0.04), n), of="clamp")
             front.add(name, dome(0.065, 0.1, 0.04, n))
             spots = [(0.08 * np.cos(a), 0.08 * np.sin(a)) for a in (0.0, 1.57, 3.14, 4.71)]

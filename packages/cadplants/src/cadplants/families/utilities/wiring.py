@@ -324,7 +324,7 @@ class Coiled(Utility, name="cable/coiled", weight=1.2):
         drops = [z - big - shift * r for shift in self.shifts]
         poses = [at(0, -0.03 - 1.7 * r * k, low) @ spun("x", np.pi / 2) for k, low in enumerate(drops)]
         t.add("cable", *map(moved, rings, poses))
-        hook = rope([(0, 0, z - r - 0.012), (0, -deep, z - r - 0.012), (0, -deep - 0.01, z + 0.03)], 0.01, 8)
+        hook = rope([(0, 0, z - r - 0.008), (0, -deep, z - r - 0.008), (0, -deep - 0.01, z + 0.03)], 0.01, 8)
         t.add("bracket", hook, box((0.08, 0.008, 0.12), (0, -0.004, z)))
         t.extend([wall(-0.6, 0.6, z + 0.5)])
         return t.model()
