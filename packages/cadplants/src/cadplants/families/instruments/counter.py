@@ -9,12 +9,12 @@ from cadplants.builder.dials import CASE, Housing
 from cadplants.builder.params import Params, among, between, chance, nested
 from cadplants.builder.table import Table, outline
 from cadplants.families.instruments.flow import NAME, FlowMeter, measuring_tube
-from cadplants.families.instruments.pieces import bent, put
+from cadplants.families.instruments.pieces import FRONT, bent, put
 from cadplants.families.valves.threaded import hex_end
 from cadplants.families.valves.valve import bolt_circle, disc_flange
 from cadplants.family import Model, Port
 from cadplants.mesh_ops import Solid, extrude, merge, moved
-from cadplants.polygon import rounded_rectangle
+from cadplants.polygon import circle, rounded_rectangle
 from cadplants.primitives import along, around, box, cylinder, hexagon, ring, turned
 from cadplants.standards import FLANGES, PIPES, sizes_between
 from cadplants.transforms import at, looking, spun
@@ -44,7 +44,7 @@ class _Counter(Params):
             case += [along("x", cylinder(0.06 * r, -0.3 * r, 0.3 * r, 8), 0, r, tall)]
         t.add(CASE, *case, of=self.metal)
         figures = box((0.8 * r, 0.2 * r, 0.002), (0, 0.3 * r, tall + 0.0015))
-        t.add("gauge face", cylinder(0.85 * r, tall - 0.0005, tall + 0.001, n), figures)
+        t.add("gauge face", cylinder(0.85 * r, tall - 0.0005, tall + 0.001, n), figures, front=FRONT)
 
 
 class ClearTube(FlowMeter, name="flow meter/clear tube", sizes=_SMALL):
@@ -60,18 +60,20 @@ class ClearTube(FlowMeter, name="flow meter/clear tube", sizes=_SMALL):
         low, high, place = 0.2 * length, 0.8 * length, self.level * length
         ends = [hex_end(self.dn, a * length, b * length, t.style, 8) for a, b in ((0, 0.1), (0.9, 1))]
         grip = around(box((0.2 * r, 0.3 * r, 0.1 * length), (0, 0, 0.15 * length)), 10, 1.42 * r)
-        nut = along("x", merge([cylinder(1.45 * r, 0.09 * length, low, n), grip]))
+        bore = bore_of(self.dn, t.style)
+        nut = along("x", merge([ring(bore, 1.45 * r, 0.09 * length, low, n), grip]))
         t.add(NAME, *ends, nut, moved(nut, at(length) @ spun("z", np.pi)), of="rubber")
         if self.cone:
-            clear = turned(outline(0.95 * r, low - 0.002, 1.25 * r, high + 0.002), n)
+            clear = turned(outline(0.95 * r, low - 0.002, 1.25 * r, high + 0.002), n, bore=0.8 * r if bore else 0.0)
         else:
-            clear = extrude(rounded_rectangle(2.6 * r, 2.2 * r, 0.15 * r, 2), low - 0.002, high + 0.002)
+            block, holes = rounded_rectangle(2.6 * r, 2.2 * r, 0.15 * r, 2), (circle(0.8 * r, n),) if bore else ()
+            clear = extrude(block, low - 0.002, high + 0.002, holes)
         line.add("gauge glass", clear)
         # A rod guides the float from end to end.
         bob = turned(outline(0.1 * r, place - 0.4 * r, 0.7 * r, place, 0.7 * r, place + 0.2 * r), 12)
         line.add("gauge needle", bob, cylinder(0.08 * r, 0.1 * length, 0.9 * length, 8), of="trim")
         ticks = [box((0.002, 0.5 * r, 0.001), (x * length, 0, 1.31 * r)) for x in np.linspace(0.28, 0.72, 9)]
-        t.add("gauge face", box((0.5 * length, 0.6 * r, 0.01), (length / 2, 0, 1.255 * r)), *ticks)
+        t.add("gauge face", box((0.5 * length, 0.6 * r, 0.01), (length / 2, 0, 1.255 * r)), *ticks, front=FRONT)
         return t.model(length, "welded", NAME)
 
 
@@ -82,7 +84,7 @@ class PaddleWheel(FlowMeter, name="flow meter/paddle wheel", sizes=_SMALL):
     tall: float = between(0.03, 0.09, "height of the body over the neck", "m")
     headed: bool = chance(0.5, "electronics on it, not a cable")
     shape: str = among(("slant", "rectangle", "pot"), "how they are made", when=lambda p: p.headed, otherwise="")
-    housing: Housing = nested(lambda s, p: Housing.draw(s, {"shape": p.shape}), "electronics", when=lambda p: p.headed)
+    housing: Housing = nested(Housing, "electronics", fixed=lambda p: {"shape": p.shape}, when=lambda p: p.headed)
 
     def build(self, t: Table) -> Model:
         radius, bore = t.pipe.radius, bore_of(self.dn, t.style)
@@ -159,10 +161,10 @@ class Displacement(FlowMeter, name="flow meter/displacement", sizes=sizes_betwee
         crate = extrude(rounded_rectangle(wide, 0.8 * wide, 0.1 * wide, 3), 0.0, tall)
         knob = along("x", cylinder(0.018, 0.0, 0.04, 12), 0.49 * wide, 0, 0.5 * tall)
         t.add(CASE, crate, knob, of="valve")
-        panes = box((0.7 * wide, 0.004, 0.3 * tall), (0, -0.4 * wide - 0.002, 0.65 * tall))
+        panes, front = box((0.7 * wide, 0.004, 0.3 * tall), (0, -0.4 * wide - 0.002, 0.65 * tall)), (0.0, -1.0, 0.0)
         if not self.upright:
-            panes = box((0.7 * wide, 0.25 * wide, 0.004), (0, 0.1 * wide, tall + 0.002))
-        t.add("gauge face", panes)
+            panes, front = box((0.7 * wide, 0.25 * wide, 0.004), (0, 0.1 * wide, tall + 0.002)), FRONT
+        t.add("gauge face", panes, front=front)
 
 
 class RotaryGas(FlowMeter, name="flow meter/rotary gas", sizes=sizes_between(25, 150)):
@@ -214,7 +216,7 @@ class DiaphragmGas(FlowMeter, name="flow meter/diaphragm gas", place="floor", si
             t.at(x).add(NAME, *stub, along("-z", disc_flange(self.mouth, t.style, 0.07), 0, 0, z + 0.11), of="trim")
         y, high, case_ = -0.47 * deep, low + 0.82 * tall, t.bundled(CASE)
         case_.add(CASE, box((0.35 * wide, 0.03, 0.16 * tall), (0, y - 0.01, high)), of="rubber")
-        case_.add("gauge face", box((0.28 * wide, 0.002, 0.06 * tall), (0, y - 0.026, high)))
+        case_.add("gauge face", box((0.28 * wide, 0.002, 0.06 * tall), (0, y - 0.026, high)), front=(0.0, -1.0, 0.0))
         t.add("plate", box((1.1 * wide, 1.1 * deep, 0.005), (0, 0, low - 0.0025)))
         leg = low - 0.005
         for x in (-0.5, 0.5):
@@ -244,7 +246,7 @@ class HeatMeter(FlowMeter, name="flow meter/heat", sizes=_SMALL):
             near = [(s * 0.25 * wide, y * deep, 0.3 * tall) for y in (-0.45, -0.8)]
             solids.append(bent([*near, (s * 0.8 * wide, -0.9 * deep, -0.02)], 0.002, t.style))
         head.add("transmitter", *solids, of="electrical")
-        head.add("gauge glass", box((0.6 * wide, 0.35 * deep, 0.002), (0, 0.12 * deep, tall + 0.001)))
+        head.add("gauge glass", box((0.6 * wide, 0.35 * deep, 0.002), (0, 0.12 * deep, tall + 0.001)), front=FRONT)
         return t.model(length, "welded", NAME)
 
 
@@ -267,7 +269,7 @@ class PickUp(FlowMeter, name="flow meter/pick-up"):
         if self.headed:
             head: list[Solid] = [moved(self.housing.solid(t.style), at(0, 0, top + 0.017))]
         else:
-            way = [(0, 0, top + 0.048), (0, 0, top + 0.09), (0.1, 0, top + 0.1), (0.16, 0, top)]
+            way = [(0, 0, top + 0.048), (0, 0, top + 0.09), (0, -0.1, top + 0.1), (0, -0.16, top)]
             head = [cylinder(0.013, top + 0.012, top + 0.05, 12), bent(way, 0.004, t.style)]
         put(t, "transmitter", *head, of="rubber")
         return t.model(length, kind=NAME)

@@ -18,6 +18,7 @@ from cadplants.family import Model
 from cadplants.flange import nut_room, plate_thickness
 from cadplants.mesh_ops import Solid, about_x, extrude, merge, moved
 from cadplants.modeling_style import ModelingStyle
+from cadplants.plant import Turning
 from cadplants.polygon import rounded_rectangle
 from cadplants.primitives import along, box, cylinder, hexagon, ring, rod, turned
 from cadplants.standards import PIPES, SIZES, sizes_between
@@ -49,7 +50,7 @@ class _Electronics(Params):
     rise: float = between(0.03, 0.12, "height of the post over the body", "m")
     radius: float = between(0.011, 0.02, "of the post", "m")
     collared: bool = chance(0.4, "a collar round the post")
-    housing: Housing = nested(lambda s, p: Housing.draw(s, {"shape": p.shape} if p.shape else {}), "housing")
+    housing: Housing = nested(Housing, "housing", fixed=lambda p: {"shape": p.shape} if p.shape else {})
     turn: float = among((0.0, np.pi / 2, np.pi), "which way the housing looks", "rad")
 
     def build(self, t: Table, top: float, clear: float = 0.0) -> None:
@@ -60,7 +61,7 @@ class _Electronics(Params):
         put(t.at(0, 0, rise - 0.002).spun("z", self.turn), "transmitter", self.housing.solid(t.style))
 
 
-_ELECTRONICS = "post with a housing"
+_ELECTRONICS, _CELL = "post with a housing", "cell with its electronics"
 
 
 class _Impulse(Params):
@@ -68,9 +69,7 @@ class _Impulse(Params):
 
     high: float = between(0.09, 0.16, "height of the transmitter over the tube", "m")
     coplanar: bool = chance(0.5, COPLANAR)
-    head: DifferentialHead = nested(
-        lambda s, p: DifferentialHead.draw(s, {"coplanar": p.coplanar}), "cell with its electronics"
-    )
+    head: DifferentialHead = nested(DifferentialHead, _CELL, fixed=lambda p: {"coplanar": p.coplanar})
 
     def build(self, t: Table, half: float, r: float) -> None:
         """Puts it down over the origin, the tappings this far to either side, on a tube of a radius [m]."""
@@ -87,13 +86,13 @@ class _Impulse(Params):
 
 
 class Ultrasonic(FlowMeter, name="flow meter/ultrasonic"):
-    """An inline ultrasonic meter: slanting transducer pockets on both sides of a spool, cables, a box on a neck."""
+    """An inline ultrasonic meter: slanting transducer pockets on both sides of a spool, a box on a neck."""
 
     long: float = between(3.5, 6, "its length over 0.22 m / radius of the pipe")
     lean: float = between(0.6, 0.9, "of the pockets", "rad")
     paths: int = whole(1, 3, "pairs of pockets", when=lambda p: p.dn >= 80, otherwise=1)
     shape: str = among(("rectangle", "double", "pot"), "how its electronics are made")
-    electronics: _Electronics = nested(lambda s, p: _Electronics.draw(s, {"shape": p.shape}), _ELECTRONICS)
+    electronics: _Electronics = nested(_Electronics, _ELECTRONICS, fixed=lambda p: {"shape": p.shape})
 
     def build(self, t: Table) -> Model:
         radius = t.pipe.radius
@@ -123,7 +122,7 @@ class ClampOn(FlowMeter, name="flow meter/clamp-on", place="carrier"):
     opposite: bool = chance(0.4, "the second transducer is below the pipe")
     metal: str = among(("gauge", "electrical", "rubber"), "kind of material of the transducers")
     railed: bool = chance(0.6, "both on a rail", when=lambda p: not p.opposite)
-    housing: Housing = nested(lambda s, _: Housing.draw(s, {"shape": "rectangle"}), "box")
+    housing: Housing = nested(Housing, "box", fixed=lambda _: {"shape": "rectangle"})
 
     def build(self, t: Table) -> Model:
         r, n, tall, wide, long = t.pipe.radius, t.n(t.pipe.radius), self.tall, self.wide, self.long
@@ -139,8 +138,18 @@ class ClampOn(FlowMeter, name="flow meter/clamp-on", place="carrier"):
         if self.railed:
             size = (2 * apart + long + 0.02, 0.004, 0.02)
             t.add(NAME, *(box(size, (0, s * (wide / 2 + 0.002), r + 0.012)) for s in (-1, 1)), of="steel")
-        lead = [(-apart, 0, top), (-apart, 0, top + 0.05), (-0.2 * apart, 0, top + 0.07), (0, 0, top + 0.14)]
-        t.add(NAME, bent(lead, 0.003, t.style), of="rubber")
+        lead: list[tuple[float, float, float]] = [
+            (-apart, 0, top),
+            (-apart, 0, top + 0.05),
+            (-0.2 * apart, 0, top + 0.07),
+            (0, 0, top + 0.14),
+        ]
+        other = [(-x, y, z) for x, y, z in lead]
+        if self.opposite:  # it comes up before the pipe
+            far = top + 0.03
+            other = [(apart, 0, -top), (apart, 0, -far), (apart, -far, -far), (apart, -far, top)]
+            other += [(0.2 * apart, -0.02, top + 0.1), (0, 0, top + 0.14)]
+        t.add(NAME, *(bent(way, 0.003, t.style) for way in (lead, other)), of="rubber")
         # The box stands on a strip that a third band holds behind it.
         strip = box((0.025, 0.004, top + 0.19), (0, r + 0.0022, (top + 0.19) / 2))
         arm = box((0.025, r + 0.004, 0.004), (0, (r + 0.004) / 2, top + 0.137))
@@ -212,7 +221,7 @@ class Nozzle(FlowMeter, name="flow meter/nozzle", sizes=sizes_between(25)):
     rise: float = between(0.03, 0.09, "from the flanges up to the valves", "m")
     coplanar: bool = chance(0.6, COPLANAR)
     head: DifferentialHead = nested(
-        lambda s, p: DifferentialHead.draw(s, {"coplanar": p.coplanar, "shape": "double"}), "cell with its electronics"
+        DifferentialHead, _CELL, fixed=lambda p: {"coplanar": p.coplanar, "shape": "double"}
     )
 
     def build(self, t: Table) -> Model:
@@ -234,9 +243,7 @@ class PitotBar(FlowMeter, name="flow meter/pitot bar", place="tap", sizes=(15,))
     out: float = between(0.06, 0.14, "length of the bar outside", "m")
     screwed: bool = chance(0.5, "nuts, not a pair of flanges")
     coplanar: bool = chance(0.7, COPLANAR)
-    head: DifferentialHead = nested(
-        lambda s, p: DifferentialHead.draw(s, {"coplanar": p.coplanar}), "cell with its electronics"
-    )
+    head: DifferentialHead = nested(DifferentialHead, _CELL, fixed=lambda p: {"coplanar": p.coplanar})
     turn: float = among((0.0, np.pi / 2), "which way it stands", "rad")
 
     def build(self, t: Table) -> Model:
@@ -269,8 +276,9 @@ class ThermalInsertion(FlowMeter, name="flow meter/thermal insertion", place="ta
             nuts = [hexagon(0.034, 0.006, 0.02), hexagon(0.034, 0.056, 0.07)]
             valve = [cylinder(0.013, 0.0, 0.075, n), *nuts, cylinder(0.021, 0.02, 0.056, n)]
             t.add("valve body", *valve, own=True)
-            spindle = along("y", cylinder(0.005, 0.018, 0.036, 8), 0, 0, 0.038)
-            t.add("lever", spindle, box((0.11, 0.005, 0.018), (0.045, 0.036, 0.038)), own=True)
+            lever = box((0.11, 0.018, 0.005), (0.045, 0, 0.036))
+            spindle = cylinder(0.005, 0.018, 0.036, 8)
+            t.at(0, 0, 0.038).along("y").add("lever", spindle, lever, own=True, turns=Turning("lever"))
         fitting = [hexagon(3.6 * r, low - 0.001, low + 0.016), hexagon(3.2 * r, low + 0.018, low + 0.034)]
         t.add(NAME, cylinder(r, 0.0, low + self.long, n), *fitting, of="trim")
         put(t.at(0, 0, low + self.long - 0.003).spun("z", self.turn), "transmitter", self.housing.solid(t.style))

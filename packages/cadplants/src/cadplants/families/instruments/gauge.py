@@ -2,10 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import replace
-from typing import Any
-
 import numpy as np
 
 from cadplants.builder.device import families_of
@@ -24,7 +20,7 @@ from cadplants.builder.dials import (
     upright,
 )  # fmt: skip
 from cadplants.builder.draws import made, yes
-from cadplants.builder.params import Source, among, between, chance, nested, several, whole
+from cadplants.builder.params import among, between, chance, nested, several, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.instruments.pieces import FRONT, Gauge, put, t_handle
 from cadplants.families.valves.valve import disc_flange
@@ -48,9 +44,9 @@ def _nipple(t: Table, tall: float) -> None:
     put(t, STEM, cylinder(0.0068, 0.0, tall, fine_sides(0.0068, t.style)), hexagon(0.022, 0.3 * tall, 0.6 * tall))
 
 
-def _standing(design: str) -> Callable[[Source, Any], StandingGauge]:
-    """Draws a gauge whose case is made so."""
-    return lambda source, _: StandingGauge.draw(source, {"dial.design": design})
+def _standing(design: str) -> StandingGauge:
+    """The field of a gauge whose case is made so."""
+    return nested(StandingGauge, "gauge", fixed=lambda _: {"dial.design": design})
 
 
 def _on_nipple(t: Table, tall: float, gauge: StandingGauge) -> Model:
@@ -63,7 +59,7 @@ class SafetyPattern(Gauge, name="gauge/safety pattern"):
     """A safety-pattern gauge (EN 837-1 S3): deep case, solid front, blow-out back on spacers."""
 
     tall: float = between(0.02, 0.09, _NIPPLE, "m")
-    gauge: StandingGauge = nested(_standing("safety"), "gauge")
+    gauge: StandingGauge = _standing("safety")
 
     def build(self, t: Table) -> Model:
         return _on_nipple(t, self.tall, self.gauge)
@@ -73,7 +69,7 @@ class Bayonet(Gauge, name="gauge/bayonet"):
     """A process gauge in stainless steel with a bayonet ring (EN 837-1, 100 and 160 mm as a rule)."""
 
     tall: float = between(0.02, 0.09, _NIPPLE, "m")
-    gauge: StandingGauge = nested(_standing("bayonet"), "gauge")
+    gauge: StandingGauge = _standing("bayonet")
 
     def build(self, t: Table) -> Model:
         return _on_nipple(t, self.tall, self.gauge)
@@ -83,7 +79,7 @@ class OnCock(Gauge, name="gauge/cock"):
     """A heavy brass or iron gauge with a screwed, hinged ring, on a gauge cock with a lever (DIN 16262)."""
 
     tall: float = between(0.05, 0.08, "height of the cock", "m")
-    gauge: StandingGauge = nested(_standing("cast"), "gauge")
+    gauge: StandingGauge = _standing("cast")
 
     def build(self, t: Table) -> Model:
         tall, n = self.tall, fine_sides(0.012, t.style)
@@ -99,9 +95,7 @@ class Turret(Gauge, name="gauge/turret"):
 
     tall: float = between(0.02, 0.09, _NIPPLE, "m")
     size: float = among((0.1, 0.115), _SIZE, "m")
-    gauge: StandingGauge = nested(
-        lambda s, p: StandingGauge.draw(s, {"size": p.size, "dial.design": "turret"}), "gauge"
-    )
+    gauge: StandingGauge = nested(StandingGauge, "gauge", fixed=lambda p: {"size": p.size, "dial.design": "turret"})
 
     def build(self, t: Table) -> Model:
         return _on_nipple(t, self.tall, self.gauge)
@@ -143,9 +137,7 @@ class Contact(Gauge, name="gauge/contact"):
     size: float = among((0.1, 0.16), _SIZE, "m")
     tall: float = between(0.02, 0.08, _NIPPLE, "m")
     design: str = among(("plain", "bayonet", "safety"), "how its case is made")
-    dial: Dial = nested(
-        lambda s, p: replace(Dial.draw(s, {"design": p.design, "deep": 0.6}), glazed=False), "case with its dial"
-    )
+    dial: Dial = nested(Dial, "case with its dial", fixed=lambda p: {"design": p.design, "deep": 0.6, "glazed": False})
     wide: float = between(0.35, 0.55, "width of the junction box / diameter")
     gland: Gland = nested(Gland, "cable gland of the junction box")
     foot: Shank = nested(Shank, "connection")
@@ -243,7 +235,7 @@ class Duplex(Gauge, name="gauge/duplex"):
     size: float = among((0.1, 0.15, 0.2), _SIZE, "m")
     tall: float = between(0.05, 0.1, "height of the cocks", "m")
     design: str = among(("plain", "cast"), "how its case is made")
-    dial: Dial = nested(lambda s, p: Dial.draw(s, {"design": p.design, "deep": 0.4}), "case with its dial")
+    dial: Dial = nested(Dial, "case with its dial", fixed=lambda p: {"design": p.design, "deep": 0.4})
     second: Needle = nested(Needle, "second needle")
     feet: tuple[Shank, ...] = several(made(Shank), 2, "connections")
 
@@ -261,7 +253,7 @@ class Duplex(Gauge, name="gauge/duplex"):
         t = upright(t, size, tall + 0.03, self.dial.reach(size))
         self.dial.build(t, size)
         second = self.second.solid(0.4 * size, 0.82 * 0.4 * size + 0.0045)
-        t.add("gauge needle", second, of="handle", turns=Turning("needle"))
+        t.add("gauge needle", second, of="handle", turns=Turning("needle"), front=FRONT)
         return t.model(kind=_KIND)
 
 

@@ -40,8 +40,8 @@ def _probe(reach: float, r: float, n: int) -> Solid:
 class _Top(Params):
     """What is screwed on a thermowell: an extension with a head, a bimetal dial, a plug with a chain."""
 
-    radius: float = between(0.007, 0.012, "of the extension", "m")
     form: str = among(("head", "head", "union", "dial", "plug"), "a head, one on a union, a dial, a plug")
+    radius: float = between(0.007, 0.012, "of the extension", "m", when=lambda p: p.form != "plug")
     long: float = between(0.03, 0.16, "length of the extension", "m", when=lambda p: p.form != "plug")
     tilt: float = among(
         (0.0, np.pi / 4, np.pi / 2), "of the dial", "rad", when=lambda p: p.form == "dial", otherwise=0.0
@@ -51,7 +51,7 @@ class _Top(Params):
     )
     design: str = among(_DESIGNS, _DESIGN, when=lambda p: p.form == "dial", otherwise="")
     dial: Dial = nested(
-        lambda s, p: Dial.draw(s, {"design": p.design}), "case with its dial", when=lambda p: p.form == "dial"
+        Dial, "case with its dial", fixed=lambda p: {"design": p.design}, when=lambda p: p.form == "dial"
     )
     turn: float = between(0, 6, _TURN, "rad", when=lambda p: p.form in ("head", "union"))
     housing: Housing = nested(Housing, _ELECTRONICS, when=lambda p: p.form in ("head", "union"))
@@ -158,7 +158,7 @@ class Test(_Thermowell, name="thermowell/test"):
 
     radius: float = between(0.009, 0.015, "of the well", "m")
     tall: float = between(0.03, 0.09, "height of the well", "m")
-    top: _Top = nested(lambda s, _: _Top.draw(s, {"form": "plug"}), _ON_WELL)
+    top: _Top = nested(_Top, _ON_WELL, fixed=lambda _: {"form": "plug"})
 
     def build(self, t: Table) -> Model:
         r, tall, n = self.radius, self.tall, t.n(self.radius)
@@ -173,7 +173,7 @@ class Bimetal(Gauge, name="thermometer/bimetal", weight=1.5):
     tall: float = between(0.03, 0.1, "height of its stem over the nut", "m")
     design: str = among(_DESIGNS, _DESIGN)
     form: int = whole(0, 2, "its stem at the back, at the bottom, on a hinge")
-    dial: Dial = nested(lambda s, p: Dial.draw(s, {"design": p.design, "deep": 0.3}), "case with its dial")
+    dial: Dial = nested(Dial, "case with its dial", fixed=lambda p: {"design": p.design, "deep": 0.3})
     tilt: float = between(0.2, 1.5, "of the dial on a hinge", "rad", when=lambda p: p.form == 2)
 
     def build(self, t: Table) -> Model:
@@ -227,7 +227,7 @@ class Capillary(Gauge, name="thermometer/capillary", place="floor"):
     middle: float = between(1.1, 1.6, "height of the dial's middle", "m")
     board: Board = nested(Board, "what it is on")
     pipe: int = among((40, 50, 80, 100), "nominal size of the pipe", "mm")
-    dial: Dial = nested(lambda s, _: Dial.draw(s, {"design": "plain"}), "case with its dial")
+    dial: Dial = nested(Dial, "case with its dial", fixed=lambda _: {"design": "plain"})
     out: float = between(0.45, 0.8, "from the dial to the pipe", "m")
     drop: float = between(0.2, 0.6, "from the dial down to the bulb", "m")
 
@@ -252,7 +252,7 @@ class _Thermocouple(Params):
     """A thermocouple through a furnace wall."""
 
     out: float = between(0.12, 0.3, "length of the tube outside", "m")
-    housing: Housing = nested(lambda s, _: Housing.draw(s, {"shape": "pot"}), _ELECTRONICS)
+    housing: Housing = nested(Housing, _ELECTRONICS, fixed=lambda _: {"shape": "pot"})
     level: float = between(0.6, 0.8, "its height / of the wall")
 
     def build(self, t: Table, r: float, deep: float) -> None:

@@ -281,7 +281,7 @@ class WellHead(Gauge, name="thermowell/head", label=_WELL, bundle=_WELL, sizes=S
 
 
 class GlassThermometer(Gauge, name="thermometer/glass", sizes=SIZES):
-    """An industrial glass thermometer: a V-shaped or flat case with a tube, straight or at an angle (DIN 16195)."""
+    """An industrial glass thermometer: a flat upright case with a scale and a tube (DIN 16195)."""
 
     tall: float = between(0.11, 0.22, "height of its case", "m")
     wide: float = between(0.03, 0.045, "width of its case", "m")
@@ -291,6 +291,7 @@ class GlassThermometer(Gauge, name="thermometer/glass", sizes=SIZES):
         put(t, STEM, cylinder(0.006, 0, 0.04, 12), hexagon(0.024, 0.03, 0.05))
         t = upright(t, tall, 0.048, 0.018)
         t.add(CASE, extrude(rounded_rectangle(wide, tall, 0.4 * wide, 4), 0.0, 0.018), of="handle")
+        t.add("gauge face", box((0.5 * wide, 0.8 * tall, 0.001), (0, 0, 0.0185)), front=FRONT)
         t.add("gauge glass", rod((0, -0.42 * tall, 0.02), (0, 0.42 * tall, 0.02), 0.003, 8), front=FRONT)
         return t.model(kind="thermometer")
 
@@ -364,7 +365,7 @@ class Turbine(FlowMeter, name="flow meter/turbine"):
 
     form: int = among((0, 1), "a plain tube, a drum")
     ratio: float = between(1.6, 2.6, _RATIO)
-    bare: bool = chance(0.6, "its face shows, no lid stands open")
+    lid: bool = chance(0.4, "an open lid")
 
     def build(self, t: Table) -> Model:
         length, top = _meter(t, self.form, self.ratio)
@@ -373,9 +374,8 @@ class Turbine(FlowMeter, name="flow meter/turbine"):
         t.add(NAME, cylinder(0.8 * r, 0.6 * top, top + 0.02, n))
         low, high = outline(r, top + 0.01, 1.05 * r, top + 0.03), outline(1.05 * r, top + 0.06, 0.95 * r, top + 0.075)
         case.add(CASE, turned([*low, *high], n), of="handle")
-        if self.bare:
-            case.add("gauge face", cylinder(0.9 * r, top + 0.0752, top + 0.077, n))
-        else:
+        case.add("gauge face", cylinder(0.9 * r, top + 0.0752, top + 0.077, n), front=FRONT)
+        if self.lid:
             lid = case.at(0, 0.9 * r, top + 0.08).spun("x", 1.0).at(0, 0.9 * r)
             lid.add(CASE, cylinder(1.05 * r, 0.0, 0.006, n), of="handle")
         return t.model(length, kind=NAME)
@@ -393,7 +393,7 @@ class Water(FlowMeter, name="flow meter/water", sizes=(15, 20, 25, 32, 40)):
         t.add(NAME, ends[0], pipe, ends[1], chamber, of="trim")
         case = t.at(length / 2).bundled(CASE)
         case.add(CASE, turned(outline(1.05 * r, 0.5 * r, 1.05 * r, 0.95 * r, 0.95 * r, 1.05 * r), n), of="handle")
-        case.add("gauge face", cylinder(0.88 * r, 1.05 * r, 1.06 * r, n))
+        case.add("gauge face", cylinder(0.88 * r, 1.05 * r, 1.06 * r, n), front=FRONT)
         return t.model(round(length, 6), "welded", NAME)
 
 
@@ -438,15 +438,16 @@ class Rotameter(FlowMeter, name="flow meter/rotameter", sizes=_SOME):
         line.add(NAME, plate)
         t.at(length).along("-x").add(NAME, plate)
         if self.glass:
-            line.add("gauge glass", turned(outline(0.9 * radius, low + 0.028, 1.15 * radius, length - low - 0.028), n))
+            cone = outline(0.9 * radius, low + 0.028, 1.15 * radius, length - low - 0.028)
+            line.add("gauge glass", turned(cone, n, bore=0.83 * radius if t.style.hollow else 0.0))
             t.add("stud", about_x(around(cylinder(0.005, low, length - low, 8), 4, 1.7 * radius, np.pi / 4)))
             bob = outline(0.2 * radius, 0.45 * length, 0.8 * radius, 0.5 * length, 0.8 * radius, 0.53 * length)
             line.add("gauge needle", turned(bob, n), of="trim")
         else:
-            line.add(NAME, cylinder(radius, low + 0.02, length - low - 0.02, n))
+            line.add(NAME, ring(bore_of(self.dn, t.style), radius, low + 0.02, length - low - 0.02, n))
             case = t.at(length / 2, -radius).bundled(CASE)
             case.add(CASE, box((0.12, 0.06, 0.14), (0, -0.03, 0)), of="valve")
-            case.add("gauge face", box((0.09, 0.003, 0.11), (0, -0.0615, 0)))
+            case.add("gauge face", box((0.09, 0.003, 0.11), (0, -0.0615, 0)), front=(0.0, -1.0, 0.0))
         return t.model(round(length, 6), kind=NAME)
 
 
@@ -477,7 +478,11 @@ class FlangedSight(SightGlass, name="sight glass/flanged", sizes=_SOME):
         port = [cylinder(1.1 * radius + 0.004, -reach, reach, n)]
         port += [ring(radius, 1.6 * radius + 0.01, s * reach - 0.008, s * reach + 0.008, n) for s in (-1, 1)]
         t.add(SIGHT_GLASS, body, *(along("y", solid, length / 2) for solid in port), of="valve")
-        t.at(length / 2).along("y").add("gauge glass", cylinder(radius, -reach - 0.006, reach + 0.006, n))
+        panes = [cylinder(radius, s * reach - 0.006, s * reach + 0.006, n) for s in (-1, 1)]
+        across = t.at(length / 2).along("-y")
+        across.add("gauge glass", *panes[::-1], front=FRONT)
+        far, thread = 1.3 * radius + 0.006, 0.004 + 0.05 * radius
+        across.add("bolt", *(bolt_circle(6, far, thread, s * reach - 0.008, s * reach + 0.008) for s in (-1, 1)))
         return round(length, 6)
 
     def _tube(self, t: Table) -> float:

@@ -8,7 +8,7 @@ from cadplants.builder.device import families_of
 from cadplants.builder.dials import CASE, Dial, Gland, Housing, fine_sides
 from cadplants.builder.params import among, between, chance, nested, whole
 from cadplants.builder.table import Table, outline
-from cadplants.families.instruments.pieces import Gauge, Vessel, put, t_handle
+from cadplants.families.instruments.pieces import FRONT, Gauge, Vessel, put, t_handle
 from cadplants.families.valves.valve import bolt_circle, disc_flange
 from cadplants.family import Model
 from cadplants.flange import plate_thickness
@@ -17,6 +17,7 @@ from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import rounded_rectangle
 from cadplants.primitives import along, around, box, cylinder, hexagon, ring, rod, rope, turned
 from cadplants.transforms import at
+from cadplants.valve_body import bore_of
 
 __all__ = ["LEVEL_BUILDS"]
 
@@ -24,6 +25,7 @@ _NAME, _HEAD, _PAD = "level gauge", "transmitter", 0.002
 _LOW, _SPAN, _MOUTH = "height of the lower nozzle", "from nozzle to nozzle", "nominal size of the nozzles"
 _ASIDE, _VESSEL, _WHEEL = "from the nozzles to the gauge's axis", "vessel beside it", "wheels on its cocks, not levers"
 _ELECTRONICS = "electronics"
+_READ = (0.0, -1.0, 0.0)  # out of a gauge beside a vessel
 
 
 class _Beside(Gauge, place="floor", label=_NAME, bundle=_NAME):
@@ -35,8 +37,8 @@ class _OnFlange(Gauge, place="head", label=_NAME, bundle=_NAME, sizes=(50, 65, 8
 
 
 def _arms(low: float, high: float, dn: int, x: float, style: ModelingStyle) -> list[Solid]:
-    """Two flanges in x = 2 mm with necks out to ``x``."""
-    return [along("x", disc_flange(dn, style, x - _PAD), _PAD, 0, z) for z in (low, high)]
+    """Two flanges in x = 2 mm with necks out to ``x``, their bores as open as the style has pipes."""
+    return [along("x", disc_flange(dn, style, x - _PAD, bore_of(dn, style)), _PAD, 0, z) for z in (low, high)]
 
 
 def _cocks(low: float, high: float, wheel: bool, style: ModelingStyle) -> list[Solid]:
@@ -53,7 +55,7 @@ def _cocks(low: float, high: float, wheel: bool, style: ModelingStyle) -> list[S
 
 
 class Magnetic(_Beside, name="level gauge/magnetic", weight=1.5):
-    """A magnetic bypass indicator: a chamber between two flanges, a column of flags strapped to it, a drain flange."""
+    """A magnetic bypass indicator: a chamber with two arms, capped or flanged, a column of flags strapped to it."""
 
     low: float = between(0.35, 0.6, _LOW, "m")
     span: float = between(0.35, 1.1, _SPAN, "m")
@@ -61,35 +63,40 @@ class Magnetic(_Beside, name="level gauge/magnetic", weight=1.5):
     aside: float = between(0.1, 0.15, _ASIDE, "m")
     below: float = between(0.12, 0.2, "of the chamber below the lower nozzle", "m")
     above: float = between(0.1, 0.2, "of the chamber above the upper nozzle", "m")
-    flanged: bool = chance(0.6, "its lower end is flanged")
+    flanged: bool = chance(0.6, "its ends are flanged, not capped")
     wide: float = between(0.028, 0.05, "width of the column of flags", "m")
     sending: bool = chance(0.4, "a transmitter's rod along its other side")
-    housing: Housing = nested(lambda s, _: Housing.draw(s, {"shape": "pot"}), _ELECTRONICS, when=lambda p: p.sending)
+    housing: Housing = nested(Housing, _ELECTRONICS, fixed=lambda _: {"shape": "pot"}, when=lambda p: p.sending)
     vessel: Vessel = nested(Vessel, _VESSEL)
 
     def build(self, t: Table) -> Model:
         low, high, r, x, wide = self.low, self.low + self.span, 0.0302, self.aside, self.wide
         bottom, top, n = low - self.below, high + self.above, t.n(r)
         self.vessel.build(t, low, high, self.mouth)
-        chamber = [cylinder(r, bottom, top, n)]
+        cap = outline(r, 0.0, 0.7 * r, 0.018, 0.2 * r, 0.022)
+        if self.flanged:  # a blind flange on one round the chamber
+            cap = outline(0.065, -0.036, 0.065, -0.019, 0.055, -0.019, 0.055, -0.017, 0.065, -0.017, 0.065, 0.0)
+        places = ((bottom, "-z"), (top, "z"))
+        # Closed by two caps; between them it is as hollow as the style has pipes.
+        chamber = [ring(0.88 * r if t.style.hollow else 0.0, r, bottom, top, n)]
+        chamber += [along(axis, turned(cap, n), 0, 0, z) for z, axis in places]
+        plug = [cylinder(0.0107, bottom - 0.06, bottom + 0.003, 12), hexagon(0.03, bottom - 0.07, bottom - 0.05)]
+        arms, aside = [moved(arm, at(-x)) for arm in _arms(low, high, self.mouth, x - 0.94 * r, t.style)], t.at(x)
+        aside.add(_NAME, *chamber, *arms, *plug)
         if self.flanged:
-            ends = [cylinder(0.065, z - 0.009, z + 0.009, n) for z in (bottom + 0.02, bottom + 0.04)]
-        else:
-            ends = [turned(outline(r, top, 0.7 * r, top + 0.018, 0.2 * r, top + 0.022), n)]
-        plug = [cylinder(0.0107, bottom - 0.04, bottom + 0.005, 12), hexagon(0.03, bottom - 0.05, bottom - 0.03)]
-        arms, aside = [moved(arm, at(-x)) for arm in _arms(low, high, self.mouth, x, t.style)], t.at(x)
-        aside.add(_NAME, *chamber, *arms, *ends, *plug)
+            bolts = bolt_circle(4, 0.05, 0.012, -0.036, 0.0)
+            aside.add("bolt", *(along(axis, bolts, 0, 0, z) for z, axis in places))
         y, mid, long = -r - 0.012, (low + high) / 2, high - low
         count = min(28, max(8, int(long / 0.04)))
         aside.add(CASE, box((wide, 0.024, long + 0.06), (0, y, mid)))
         size = (0.5 * wide, 0.004, 0.6 * long / count)
         flags = [box(size, (0, y - 0.0139, low + (k + 0.5) * long / count)) for k in range(count)]
-        aside.add("gauge face", *flags, of="handle")
-        places = (low + 0.15 * long, mid, low + 0.85 * long)
-        aside.add("clamp", *(ring(r, r + 0.002, z, z + 0.01, n) for z in places), own=True)
+        aside.add("gauge face", *flags, of="handle", front=_READ)
+        straps = (low + 0.15 * long, mid, low + 0.85 * long)
+        aside.add("clamp", *(ring(r, r + 0.002, z, z + 0.01, n) for z in straps), own=True)
         if self.sending:
-            head = moved(self.housing.solid(t.style), at(0, 0, high + 0.1))
-            put(aside.at(r + 0.007), _HEAD, cylinder(0.007, low, high + 0.12, 10), head)
+            head = along("x", self.housing.solid(t.style), 0, 0, high - 0.03)
+            put(aside.at(r + 0.007), _HEAD, cylinder(0.007, low, high - 0.01, 10), head)
         return t.model(kind=_NAME)
 
 
@@ -112,23 +119,27 @@ class Reflex(_Beside, name="level gauge/reflex", weight=1.5):
         high, x = low + self.sections * each + 0.14, 0.1
         self.vessel.build(t, low, high, self.mouth)
         metal = [moved(arm, at(-x)) for arm in _arms(low, high, self.mouth, x, t.style)]
-        metal += [*_cocks(low, high, self.wheel, t.style), cylinder(0.01, low, high, 10)]
+        metal += _cocks(low, high, self.wheel, t.style)
         frame = rounded_rectangle(wide, 0.97 * each, 0.3 * wide, 3)
         slot = rounded_rectangle(0.4 * wide, 0.85 * each, 0.18 * wide, 3)
-        front, back = deep / 2, -deep / 2
-        halves = [extrude(frame, back, 0.0), extrude(frame, 0.0, front, (slot,))]
-        glasses = [extrude(0.99 * slot, 0.0, front - 0.006)]
-        glasses += [extrude(0.9 * slot, back - 0.001, back + 0.01)] if self.both else []
+        front, back, mid, hollow = deep / 2, -deep / 2, 0.2 * deep, t.style.hollow
+        chamber = extrude(frame, -mid, mid, (slot,) if hollow else ())
+        covers = [extrude(frame, back, -mid, (slot,) if self.both else ()), extrude(frame, mid, front, (slot,))]
+        glasses = [extrude(0.99 * slot, mid, front - 0.006)]
+        glasses += [extrude(0.99 * slot, back + 0.006, -mid)] if self.both else []
         nut = merge([cylinder(0.005, back - 0.006, front + 0.01, 8), hexagon(0.016, front, front + 0.008)])
         ys = np.linspace(-0.42, 0.42, max(3, int(each / 0.06))) * each
         nuts = [moved(nut, at(s * 0.37 * wide, y)) for s in (-1, 1) for y in ys]
         places = [low + 0.07 + (k + 0.5) * each for k in range(self.sections)]
-        metal += [along("-y", half, 0, 0, z) for z in places for half in halves]
+        metal += [along("-y", one, 0, 0, z) for z in places for one in (chamber, *covers)]
+        reach = 0.48 * each  # from a frame's middle into its end
+        starts, ends = [low, *(z + reach for z in places)], [*(z - reach for z in places), high]
+        metal += [ring(0.006 if hollow else 0.0, 0.01, *span, 10) for span in zip(starts, ends, strict=True)]
         if self.drained:
             metal += [cylinder(0.008, low - 0.06, low, 10), hexagon(0.024, low - 0.065, low - 0.04)]
         t = t.at(x)
         t.add(_NAME, *metal)
-        t.add("gauge glass", *(along("-y", glass, 0, 0, z) for z in places for glass in glasses))
+        t.add("gauge glass", *(along("-y", glass, 0, 0, z) for z in places for glass in glasses), front=_READ)
         t.add("bolt", *(along("-y", one, 0, 0, z) for z in places for one in nuts))
         return t.model(kind=_NAME)
 
@@ -154,7 +165,8 @@ class Tubular(_Beside, name="level gauge/tubular", weight=1.5):
         metal += [*_cocks(low, high, self.wheel, t.style), hexagon(0.02, high + 0.016, high + 0.036)]
         metal.append(along("-y", t_handle(0.05, 0.04), 0, -0.017, low - 0.006))
         t.add(_NAME, *metal, cylinder(0.006, low - 0.06, low - 0.01, 10))
-        t.add("gauge glass", cylinder(r, low + 0.03, high - 0.03, fine_sides(r, t.style)))
+        glass = ring(0.7 * r if t.style.hollow else 0.0, r, low + 0.03, high - 0.03, fine_sides(r, t.style))
+        t.add("gauge glass", glass, front=_READ)
         if self.guarded:
             bars = around(cylinder(0.0035, low + 0.024, high - 0.024, 8), self.bars, 0.02, np.pi / 4)
             rings = [ring(r + 0.006, 0.026, z, z + 0.006, 12) for z in (low + 0.026, high - 0.032)]
@@ -178,7 +190,7 @@ class FloatBoard(_Beside, name="level gauge/board"):
         t.add("bracket", *(box((0.5 * wide, 0.09, 0.03), (0, y + 0.05, s * tall)) for s in (0.12, 0.48, 0.84)))
         size, x = (0.5 * wide, 0.001, 0.008), -0.2 * wide
         ticks = [box(size, (x, y - 0.0064, s * tall)) for s in np.linspace(0.08, 0.88, 15)]
-        t.add("gauge face", box((wide, 0.012, 0.88 * tall), (0, y, 0.48 * tall)), *ticks)
+        t.add("gauge face", box((wide, 0.012, 0.88 * tall), (0, y, 0.48 * tall)), *ticks, front=_READ)
         pulley = along("x", merge([cylinder(0.035, -0.004, 0.004, 16), cylinder(0.008, -0.02, 0.02, 8)]))
         z, inner, y = tall + 0.09, -0.6 * radius, y - 0.024
         metal = [box((0.05, 0.04, 0.1), (0, place, tall + 0.06)) for place in (inner, -0.93 * radius)]
@@ -188,7 +200,7 @@ class FloatBoard(_Beside, name="level gauge/board"):
         way = [(0, inner, tall + 0.01), (0, inner, z + 0.035), (0, y + 0.035, z + 0.035), (0, y, z), (0, y, stop)]
         t.add(_NAME, *metal, rope(way, 0.003, 8))
         pointer = box((0.7 * wide, 0.01, 0.03), (0.05 * wide, y + 0.008, stop))
-        t.add("gauge needle", pointer, box((0.06, 0.03, 0.05), (0, y, stop)), of="handle")
+        t.add("gauge needle", pointer, box((0.06, 0.03, 0.05), (0, y, stop)), of="handle", front=_READ)
         return t.model(kind=_NAME)
 
 
@@ -202,8 +214,8 @@ class Displacer(_Beside, name="level gauge/displacer"):
     clear: float = between(0.08, 0.13, "from the nozzles to the chamber", "m")
     bolts: int = among((8, 12), "of its top")
     side: str = among(("y", "-y", "x"), "where the torque arm points")
-    housing: Housing = nested(Housing, _ELECTRONICS)
-    boxed: bool = chance(0.5, "a plain box in place of that housing")
+    boxed: bool = chance(0.5, "its electronics are in a plain box")
+    housing: Housing = nested(Housing, _ELECTRONICS, when=lambda p: not p.boxed)
     gland: Gland = nested(Gland, "cable gland of the box", when=lambda p: p.boxed)
     vessel: Vessel = nested(Vessel, _VESSEL)
 
@@ -211,10 +223,15 @@ class Displacer(_Beside, name="level gauge/displacer"):
         low, high, r, n = self.low, self.low + self.span, self.radius, t.n(self.radius)
         x, bottom, top = r + self.clear, low - 0.06, high + 0.05
         self.vessel.build(t, low, high, self.mouth)
-        arms, t, lid = [moved(arm, at(-x)) for arm in _arms(low, high, self.mouth, x, t.style)], t.at(x), top + 0.024
-        can = outline(0.3 * r, bottom - 0.4 * r, r, bottom, r, top, 1.7 * r, top, 1.7 * r, lid)
+        arms = [moved(arm, at(-x)) for arm in _arms(low, high, self.mouth, self.clear + 0.04 * r, t.style)]
+        t, lid = t.at(x), top + 0.024
+        # Where the style has pipes hollow, it is too, from its drain up to its lid.
+        can = outline(0, lid, 0.9 * r, lid, 0.9 * r, bottom, 0.008, bottom - 0.3 * r) if t.style.hollow else []
+        can += [(0.008, bottom - 0.4 * r)] if can else []
+        can += outline(0.3 * r, bottom - 0.4 * r, r, bottom, r, top, 1.7 * r, top, 1.7 * r, lid)
         can += outline(1.7 * r, lid + 0.024, 0.8 * r, lid + 0.024, 0.8 * r, lid + 0.1, 0.4 * r, lid + 0.12)
-        drain = cylinder(0.0107, bottom - 0.4 * r - 0.05, bottom - 0.3 * r, 12)
+        inner = 0.008 if t.style.hollow else 0.0
+        drain = ring(inner, 0.0107, bottom - 0.4 * r - 0.05, bottom - 0.35 * r, 12)
         t.add(_NAME, turned(can, n), *arms, drain, of="valve")
         t.add("bolt", bolt_circle(self.bolts, 1.45 * r, 0.016, top, lid + 0.024))
         arm, end = t.at(0, 0, lid + 0.065).along(self.side), 0.8 * r + 0.1
@@ -248,7 +265,8 @@ class Column(_Beside, name="level gauge/column"):
             for solid in (cylinder(0.42 * wide, 0.0, 0.022, 14), hexagon(0.017, 0.022, 0.03))
         )
         t.add(_NAME, back, *walls, *ends, of="electrical")
-        t.add("gauge glass", extrude(rounded_rectangle(0.6 * wide, long - 0.03, 0.25 * wide, 3), 0.008, 0.024))
+        pane = extrude(rounded_rectangle(0.6 * wide, long - 0.03, 0.25 * wide, 3), 0.008, 0.024)
+        t.add("gauge glass", pane, front=FRONT)
         t.add("screw", *bolts)
         return t.model(kind=_NAME)
 
@@ -304,7 +322,7 @@ class UltrasonicLevel(_OnFlange, name="level gauge/ultrasonic"):
         cable = along("x", self.gland.solid(t.style), 1.1 * r, 0, z + 0.75 * tall)
         put(t, _HEAD, *body, cable, of="electrical")
         view = z + 1.1 * tall if self.form == 1 else top + 0.001
-        put(t, CASE, box((1.0 * r, 0.6 * r, 0.003), (0, 0, view)), of="dial")
+        t.bundled(CASE).add(CASE, box((1.0 * r, 0.6 * r, 0.003), (0, 0, view)), of="dial", front=FRONT)
         return t.model(kind="level transmitter")
 
 
@@ -314,7 +332,7 @@ class Fork(_OnFlange, name="level gauge/fork", sizes=(25, 40, 50, 80)):
     tall: float = between(0.03, 0.1, "height of the extension", "m")
     forked: bool = chance(0.7, "tines below, not a rod")
     shape: str = among(("pot", "slant", "single"), "how its electronics are made")
-    housing: Housing = nested(lambda s, p: Housing.draw(s, {"shape": p.shape}), _ELECTRONICS)
+    housing: Housing = nested(Housing, _ELECTRONICS, fixed=lambda p: {"shape": p.shape})
 
     def build(self, t: Table) -> Model:
         t, thick, tall, r = t.along("x"), plate_thickness(self.dn), self.tall, min(0.0107, 0.3 * t.pipe.bore)
@@ -330,12 +348,12 @@ class Fork(_OnFlange, name="level gauge/fork", sizes=(25, 40, 50, 80)):
 
 
 class SwingDial(_OnFlange, name="level gauge/swing dial", sizes=(40, 50, 80)):
-    """A dial gauge of a tank's float arm: a small flange or oval head with screws, a dial that lies on it."""
+    """A dial gauge of a tank's float arm: a flange, a dial that lies on it, the arm below."""
 
     size: float = among((0.05, 0.08, 0.1), "diameter of its case", "m")
     rise: float = between(0.008, 0.03, "height of the dial over the flange", "m")
     design: str = among(("plain", "turret", "crimped"), "how its case is made")
-    dial: Dial = nested(lambda s, p: Dial.draw(s, {"design": p.design, "deep": 0.025 / p.size}), "case with its dial")
+    dial: Dial = nested(Dial, "case with its dial", fixed=lambda p: {"design": p.design, "deep": 0.025 / p.size})
 
     def build(self, t: Table) -> Model:
         t, thick, size = t.along("x"), plate_thickness(self.dn), self.size
@@ -348,7 +366,7 @@ class SwingDial(_OnFlange, name="level gauge/swing dial", sizes=(40, 50, 80)):
 
 
 class SideFloat(_OnFlange, name="level gauge/side float", sizes=(65, 80, 100)):
-    """A float switch for a side flange: a switch box behind it, square flange or round, a float on an arm in front."""
+    """A float switch for a side flange: a switch box behind it, a float on an arm in front."""
 
     wide: float = between(0.08, 0.12, "width of the box", "m")
     tall: float = between(0.09, 0.15, "height of the box", "m")

@@ -15,6 +15,7 @@ from cadplants.families.valves.valve import bolt_circle, disc_flange
 from cadplants.family import Model
 from cadplants.flange import plate_thickness
 from cadplants.mesh_ops import extrude, moved, sweep
+from cadplants.plant import Turning
 from cadplants.polygon import circle, rounded_rectangle
 from cadplants.primitives import along, box, cylinder, hexagon, ring, rod, rope
 from cadplants.standards import PIPES
@@ -81,7 +82,7 @@ class _WallGauge(Params):
     """A gauge on a wall, with its tube."""
 
     design: str = among(("plain", "safety", "cast"), "how its case is made")
-    dial: Dial = nested(lambda s, p: Dial.draw(s, {"design": p.design}), "case with its dial")
+    dial: Dial = nested(Dial, "case with its dial", fixed=lambda p: {"design": p.design})
     disc: bool = chance(0.6, "its rear flange is round, not a strap")
     foot: Shank = nested(Shank, "connection")
     clip: bool = chance(0.6, "a clip holds its tube")
@@ -101,7 +102,7 @@ class _WallGauge(Params):
         drop = [(0, y, low - 0.036), (0, y, low - 0.12), (0, -0.012, low - 0.2), (0, -0.012, 0.25)]
         put(t, STEM, bent(drop, 0.004, t.style))
         if self.clip:
-            t.add("clamp", box((0.04, 0.014, 0.012), (0, -0.007, 0.75 * low)))
+            t.add("clamp", box((0.04, 0.014, 0.012), (0, -0.007, low - 0.3)))
 
 
 class OnWall(_Mounted, name="gauge/wall"):
@@ -115,7 +116,7 @@ class OnWall(_Mounted, name="gauge/wall"):
 
     def build(self, t: Table) -> Model:
         size, pitch = self.size, 1.7 * self.size
-        self.board.build(t, pitch * self.count + 0.2, self.middle - 1.2 * size, self.middle + size)
+        self.board.build(t, pitch * self.count + 0.2, self.middle - 0.5 * size - 0.35, self.middle + size)
         for k, gauge in enumerate(self.gauges):
             gauge.build(t.at((k - (self.count - 1) / 2) * pitch), size, self.middle)
         return t.model(kind=_KIND)
@@ -135,23 +136,25 @@ class CapillarySeal(_Mounted, name="gauge/capillary seal"):
 
     def build(self, t: Table) -> Model:
         size, pipe, out, low = self.size, PIPES[self.pipe], self.out, self.low
-        thick, z = plate_thickness(self.pipe), self.height - 0.15
+        thick, z, deep = plate_thickness(self.pipe), self.height - 0.15, self.dial.reach(self.size)
+        y = -max(0.052, 0.04 + deep / 2)  # clear of the post behind its case
         self.stand.build(t, self.height)
-        plates = [box((0.05, 0.05, 0.006), (0, -0.05, z - 0.003)), box((0.08, 0.006, 0.09), (0, -0.0332, z - 0.04))]
+        shelf = box((0.05, -0.005 - y, 0.006), (0, (y - 0.055) / 2, z - 0.003))
+        plates = [shelf, box((0.08, 0.006, 0.09), (0, -0.0332, z - 0.04))]
         t.add("bracket", *plates, of="clamp")
         end = t.at(out, 0, low)
         t.at(out).add("pipe", cylinder(pipe.radius, 0.0, low - 0.06, t.n(pipe.radius)))
         end.along("-z").add("flange", disc_flange(self.pipe, t.style, 0.061))
         nipple = along("x", hexagon(0.02, 0.0, 0.05), 0.3 * pipe.outer, 0, thick + 0.006)
         put(end, STEM, disc_flange(self.pipe, t.style, thick + 0.012), nipple)
-        gauge = t.at(0, -0.052)
+        gauge = t.at(0, y)
         self.foot.build(gauge, z - 0.02, z + 0.042, size)
-        self.dial.build(upright(gauge, size, z + 0.04, self.dial.reach(size)), size)
+        self.dial.build(upright(gauge, size, z + 0.04, deep), size)
         hang = out + 0.3 * pipe.outer + 0.05
-        line = [(0, 0, z - 0.018), (0, 0, z - 0.12), (0.4 * out, 0.02, 0.45 * low), (hang + 0.12, 0.01, 0.7 * low)]
+        line = [(0, 0, z - 0.018), (0, 0, z - 0.12), (0.4 * out, -0.05, 0.45 * low), (hang + 0.12, -0.12, 0.7 * low)]
         line += [(hang + 0.1, 0, low + thick + 0.006), (hang - 0.002, 0, low + thick + 0.006)]
-        # The capillary starts under the gauge, before the post, and ends in the standpipe's plane.
-        way = [(x, y - 0.052 * (1 - x / (hang + 0.12)), z) for x, y, z in line]
+        # The capillary starts under the gauge, before the post, passes the standpipe and ends in its plane.
+        way = [(a, b + y * (1 - a / (hang + 0.12)), c) for a, b, c in line]
         put(t, STEM, bent(way, 0.0035, t.style), of="rubber")
         return t.model(kind=_KIND)
 
@@ -161,7 +164,7 @@ class _Edgewise(Params):
 
     fan: bool = given(False, "its scale is a fan")
     deep: float = between(0.03, 0.06, "depth of its case", "m")
-    swing: float = between(-0.35, 0.35, "where the needle of a fan points", "rad")
+    swing: float = between(-0.35, 0.35, "where the needle of a fan points", "rad", when=lambda p: p.fan)
     level: float = between(-0.3, 0.3, "height of an upright scale's needle / of the case", when=lambda p: not p.fan)
     glazed: bool = chance(0.5, "has a window")
 
@@ -169,13 +172,15 @@ class _Edgewise(Params):
         """Puts it down with its back on z = 0, this high [m]."""
         shape, deep, wide = self._shape(tall), self.deep, 0.5 * tall
         if self.fan:
-            pose = at(0, -0.35 * tall, 0.8 * deep + 0.002) @ spun("z", self.swing)
-            needle = moved(box((0.004, 0.7 * tall, 0.001), (0, 0.35 * tall, 0)), pose)
+            pivot = (0.0, -0.35 * tall, 0.8 * deep + 0.002)
+            hand, turns = at(*pivot) @ spun("z", self.swing), Turning("needle", point=pivot)
+            needle = moved(box((0.004, 0.7 * tall, 0.001), (0, 0.35 * tall, 0)), hand)
         else:
+            turns = None
             needle = box((0.5 * wide, 0.006, 0.001), (0.1 * wide, self.level * tall, 0.8 * deep + 0.002))
         t.add(CASE, extrude(0.9 * shape, 0.0, 0.8 * deep), extrude(shape, 0.78 * deep, deep, (0.82 * shape,)))
         t.add("gauge face", extrude(0.81 * shape, 0.8 * deep, 0.8 * deep + 0.0015), front=FRONT)
-        t.add("gauge needle", needle, front=FRONT)
+        t.add("gauge needle", needle, turns=turns, front=FRONT)
         if self.glazed:
             t.add("gauge glass", extrude(0.815 * shape, 0.94 * deep, 0.96 * deep), front=FRONT)
 
@@ -218,19 +223,21 @@ class Differential(_Mounted, name="gauge/differential"):
     def build(self, t: Table) -> Model:
         r, n, z, y = self.radius, t.n(0.05), self.height - 0.1, -0.2
         self.stand.build(t, self.height)
-        cell, low = t.at(0, y, z).along("x"), z - r - 0.022
+        # The manifold is below the dial's case, so that its handles turn.
+        cell, low = t.at(0, y, z).along("x"), z - max(r + 0.022, 0.6 * self.size + 0.015)
         plates = [cylinder(r, a, b, n) for a, b in ((-0.032, -0.002), (0.002, 0.032))]
         cell.add(CASE, *plates, cylinder(0.8 * r, -0.003, 0.003, n))
         cell.add("bolt", bolt_circle(self.bolts, 0.85 * r, 0.008, -0.032, 0.032))
         self.dial.build(t.at(0, y - 0.9 * r, z).along("-y"), self.size)
         tees = [along(a, t_handle(0.05, 0.04), s * 0.044, y, low) for a, s in (("x", 1), ("-x", -1))]
         tees.append(along("-y", t_handle(0.05, 0.04), 0, y - 0.019, low - 0.008))
-        put(t, STEM, box((0.09, 0.04, 0.05), (0, y, low)), *tees)
+        necks = [moved(cylinder(0.008, low, z - 0.9 * r, 10), at(x, y)) for x in (-0.017, 0.017)]
+        put(t, STEM, box((0.09, 0.04, 0.05), (0, y, low)), *necks, *tees)
         for x in (-0.027, 0.027):
-            way = [(x, y, z - r - 0.04), (x, y, z - r - 0.15), (2 * x, y + 0.05, 0.5 * z), (2 * x, y + 0.05, 0.1)]
+            way = [(x, y, low - 0.018), (x, y, low - 0.128), (2 * x, y + 0.05, 0.5 * z), (2 * x, y + 0.05, 0.1)]
             put(t, STEM, bent(way, 0.005, t.style))
         arm = box((0.04, -y - 0.035, 0.006), (0, y / 2 - 0.017, z + r - 0.01))
-        t.add("bracket", box((0.06, 0.006, 0.08), (0, -0.0332, z)), arm, of="clamp")
+        t.add("bracket", box((0.06, 0.006, 2 * r), (0, -0.0332, z)), arm, of="clamp")
         return t.model(kind=_DIFFERENTIAL)
 
 
@@ -251,9 +258,10 @@ class UTube(_Mounted, name="gauge/u-tube"):
         turn = np.linspace(np.pi, 2 * np.pi, 9)
         foot = [(apart * np.cos(a), y, low + apart * (1 + np.sin(a))) for a in turn]
         path = [(-apart, y, low + span), *foot, (apart, y, low + span)]
-        t.add("gauge glass", rope(path, 0.0055, fine_sides(0.0055, t.style, 10)))
+        t.add("gauge glass", rope(path, 0.0055, fine_sides(0.0055, t.style, 10)), front=(0.0, -1.0, 0.0))
         ticks = [box((0.8 * apart, 0.001, 0.0015), (0, -0.0145, low + s * span)) for s in np.linspace(0.12, 0.9, 14)]
-        t.add("gauge face", box((1.1 * apart, 0.002, 0.9 * span), (0, -0.013, low + 0.52 * span)), *ticks)
+        scale = box((1.1 * apart, 0.002, 0.9 * span), (0, -0.013, low + 0.52 * span))
+        t.add("gauge face", scale, *ticks, front=(0.0, -1.0, 0.0))
         for x in (-apart, apart):
             put(t.at(x, y, low + span - 0.005), STEM, cylinder(0.009, 0.0, 0.03, 12), hexagon(0.022, 0.02, 0.035))
             way = [(x, y, low + span + 0.025), (x, y, low + span + 0.09), (3.5 * x, y, low + span + 0.07)]
@@ -297,7 +305,7 @@ class Draught(_Mounted, name="gauge/draught"):
     middle: float = between(1.0, 1.5, _MIDDLE, "m")
     wide: float = between(0.5, 0.9, "width of the duct", "m")
     deep: float = between(0.3, 0.6, "depth of the duct", "m")
-    dial: Dial = nested(lambda s, _: Dial.draw(s, {"design": "plain", "deep": 0.45}), "case with its dial")
+    dial: Dial = nested(Dial, "case with its dial", fixed=lambda _: {"design": "plain", "deep": 0.45})
 
     def build(self, t: Table) -> Model:
         size, z, wide, deep = self.size, self.middle, self.wide, self.deep
@@ -319,7 +327,7 @@ class OnPost(_Mounted, name="gauge/post"):
 
     height: float = between(0.6, 1.3, "of the post", "m")
     size: float = among((0.063, 0.1), _SIZE, "m")
-    gauge: StandingGauge = nested(lambda s, p: StandingGauge.draw(s, {"size": p.size}), "gauge")
+    gauge: StandingGauge = nested(StandingGauge, "gauge", fixed=lambda p: {"size": p.size})
 
     def build(self, t: Table) -> Model:
         height, w, y, z = self.height, 0.04, -0.07, self.height - 0.06

@@ -9,13 +9,14 @@ from cadplants.builder.dials import STEM, Gland, Housing
 from cadplants.builder.draws import one_of
 from cadplants.builder.params import Params, among, between, chance, given, nested, several
 from cadplants.builder.table import Table, outline
-from cadplants.families.instruments.pieces import Gauge, Stand, bent, put, t_handle
+from cadplants.families.instruments.pieces import FRONT, Gauge, Stand, bent, put, t_handle
 from cadplants.families.instruments.sight import SIGHT_GLASS, SightGlass
 from cadplants.families.valves.threaded import hex_end
 from cadplants.families.valves.valve import bolt_circle, disc_flange, flanged_body
 from cadplants.family import Model
 from cadplants.flange import plate_thickness
 from cadplants.mesh_ops import Solid, extrude, merge, moved
+from cadplants.plant import Turning
 from cadplants.polygon import circle, rounded_rectangle
 from cadplants.primitives import along, around, box, cylinder, dome, hexagon, ring, rod, rope, turned
 from cadplants.standards import sizes_between
@@ -26,7 +27,7 @@ __all__ = ["COPLANAR", "NAME", "PRESSURE_BUILDS", "DifferentialHead"]
 
 NAME, _KIND = "transmitter", "pressure transmitter"
 COPLANAR = "one flange below the differential cell, not one on either side"
-_TURN, _HEAD = "which way its electronics look", "electronics"
+_TURN, _HEAD, _CELL = "which way its electronics look", "electronics", "cell with its electronics"
 
 
 class _Transmitter(Gauge, label=NAME, bundle=NAME):
@@ -40,7 +41,7 @@ class SingleChamber(_Transmitter, name="transmitter/single chamber"):
     tall: float = between(0.03, 0.08, "height of the cell", "m")
     finned: bool = chance(0.3, "cooling fins")
     shape: str = among(("single", "pot", "slant", "rectangle"), "how its electronics are made")
-    housing: Housing = nested(lambda s, p: Housing.draw(s, {"shape": p.shape}), _HEAD)
+    housing: Housing = nested(Housing, _HEAD, fixed=lambda p: {"shape": p.shape})
     turn: float = between(0, 6, _TURN, "rad")
 
     def build(self, t: Table) -> Model:
@@ -86,7 +87,10 @@ class TurningDisplay(_Transmitter, name="transmitter/turning display"):
         wedge = extrude(np.array(outline(-r, 0.0, r, 0.0, r, 0.02, -0.2 * r, 0.03, -r, 0.012)), -0.9 * r, 0.9 * r)
         # The outline lies in (y, z) and runs along x.
         t.at(0, 0, top - 0.001).add(NAME, Solid(wedge.vertices[:, [2, 0, 1]], wedge.faces), of="rubber")
-        t.add("gauge face", box((1.3 * r, 0.6 * r, 0.003), (0, -0.55 * r, top + 0.022)))
+        # It lies on the slope, whose upper edge is 0.2 r before the axis and 0.03 m high.
+        lean = float(np.arctan2(0.018, 0.8 * r))
+        slope = t.at(0, -0.6 * r, top + 0.02).spun("x", lean)
+        slope.add("gauge face", box((1.3 * r, 0.6 * r, 0.003), (0, 0, 0.001)), front=FRONT)
         plug = [cylinder(0.006, 0.0, 0.02, 10), cylinder(0.0075, 0.01, 0.04, 10)]
         t.at(0, 0.95 * r, low + 0.7 * self.tall).along("y").add(NAME, *plug, of="trim")
         return t.model(kind=_KIND)
@@ -146,9 +150,10 @@ class SwitchBox(_Transmitter, name="transmitter/switch box"):
         case.append(cylinder(0.012, low + high - 0.002, low + high + 0.014, 12))
         axis, s = ("x", 1) if self.right else ("-x", -1)
         t.add(NAME, *case, along(axis, self.gland.solid(t.style), 0.5 * s * wide, 0, low + 0.25 * high), of=self.metal)
-        t.add("gauge face", box((0.4 * wide, 0.003, 0.55 * high), (0, -deep / 2 - 0.0042, low + 0.55 * high)))
+        scale = box((0.4 * wide, 0.003, 0.55 * high), (0, -deep / 2 - 0.0042, low + 0.55 * high))
+        t.add("gauge face", scale, front=(0.0, -1.0, 0.0))
         place = (0.05 * wide, -deep / 2 - 0.0065, low + self.mark * high)
-        t.add("gauge needle", box((0.2 * wide, 0.002, 0.004), place))
+        t.add("gauge needle", box((0.2 * wide, 0.002, 0.004), place), front=(0.0, -1.0, 0.0))
         return t.model(kind="pressure switch")
 
 
@@ -157,7 +162,7 @@ class DifferentialHead(Params):
 
     coplanar: bool = given(False, COPLANAR)
     shape: str = among(("double", "single"), "how its electronics are made")
-    housing: Housing = nested(lambda s, p: Housing.draw(s, {"shape": p.shape}), _HEAD)
+    housing: Housing = nested(Housing, _HEAD, fixed=lambda p: {"shape": p.shape})
 
     def build(self, t: Table) -> None:
         """Puts it down."""
@@ -188,7 +193,7 @@ class PipeStand(_Transmitter, name="transmitter/pipe stand", place="floor"):
     valves: int = among((2, 3, 5), "of the manifold")
     coplanar: bool = chance(0.6, COPLANAR)
     head: DifferentialHead = nested(
-        lambda s, p: DifferentialHead.draw(s, {"coplanar": p.coplanar}), "cell with its electronics"
+        DifferentialHead, _CELL, fixed=lambda p: {"coplanar": p.coplanar, "housing.both": False}
     )
 
     def build(self, t: Table) -> Model:
@@ -199,7 +204,7 @@ class PipeStand(_Transmitter, name="transmitter/pipe stand", place="floor"):
             block.append(along("-y", t_handle(0.06, 0.05), float(x), y - 0.035, half))
         block[1:1] = [along("-x", t_handle(0.06, 0.05), -0.5 * wide, y, half)]
         put(t, STEM, *block, along("x", t_handle(0.06, 0.05), 0.5 * wide, y, half))
-        self.head.build(t.at(0, y, z))
+        self.head.build(t.at(0, y, z).spun("z", np.pi))  # its gland away from the stand
         for x in (-0.027, 0.027):
             nut = moved(hexagon(0.018, -0.02, 0.001), at(x, y, z - tall))
             way = [(x, y, z - tall - 0.01), (x, y, z - tall - 0.12), (x, y - 0.12, 0.4 * z), (1.5 * x, y - 0.12, 0.08)]
@@ -219,9 +224,7 @@ class FlangeSeal(_Transmitter, name="transmitter/flange seal", place="head", siz
     out: float = between(0.05, 0.14, "length of the link", "m")
     coplanar: bool = chance(0.5, COPLANAR)
     shape: str = among(("double", "single", "pot"), "how its electronics are made")
-    head: DifferentialHead = nested(
-        lambda s, p: DifferentialHead.draw(s, {"coplanar": p.coplanar, "shape": p.shape}), "cell with its electronics"
-    )
+    head: DifferentialHead = nested(DifferentialHead, _CELL, fixed=lambda p: {"coplanar": p.coplanar, "shape": p.shape})
     looped: bool = chance(0.4, "a second capillary comes off sideways in a loop")
 
     def build(self, t: Table) -> Model:
@@ -243,14 +246,14 @@ class Probe(_Transmitter, name="transmitter/probe"):
     long: float = between(0.2, 0.4, "length of the shaft", "m")
     rods: int = among((2, 3), "of the guide")
     potted: bool = chance(0.5, "a pot on it, not a cable")
-    housing: Housing = nested(lambda s, _: Housing.draw(s, {"shape": "pot"}), "pot", when=lambda p: p.potted)
+    housing: Housing = nested(Housing, "pot", fixed=lambda _: {"shape": "pot"}, when=lambda p: p.potted)
 
     def build(self, t: Table) -> Model:
         r, n, long, z = self.radius, 14, self.long, 0.12 + self.long
         nuts = [hexagon(3.4 * r, low, low + 0.02) for low in (0.015, 0.08)]
         t.add("valve body", cylinder(1.3 * r, 0.0, 0.11, n), *nuts, box((3 * r, 3 * r, 0.04), (0, 0, 0.057)), own=True)
-        lever = along("y", cylinder(0.006, 1.4 * r, 2.6 * r, 8), 0, 0, 0.057)
-        t.add("lever", lever, box((0.12, 0.006, 0.02), (0.05, 2.5 * r, 0.057)), own=True)
+        lever = cylinder(0.006, 1.4 * r, 2.6 * r, 8), box((0.12, 0.02, 0.006), (0.05, 0, 2.5 * r))
+        t.at(0, 0, 0.057).along("y").add("lever", *lever, own=True, turns=Turning("lever"))
         shaft = [cylinder(r, 0.1, z, n), cylinder(2.2 * r, 0.11, 0.125, n)]
         shaft.append(cylinder(2.2 * r, 0.1 + 0.6 * long, 0.112 + 0.6 * long, n))
         guide = around(cylinder(0.004, 0.12, 0.105 + 0.6 * long, 8), self.rods, 1.8 * r)
@@ -267,7 +270,7 @@ class Probe(_Transmitter, name="transmitter/probe"):
 
 
 class BoltedWindows(SightGlass, name="sight glass/bolted windows", sizes=sizes_between(most=150)):
-    """A sight glass with two bolted covers, square or round, and inside a flap, a rotor or nothing (DIN 3237)."""
+    """A sight glass with two bolted covers, square or round, maybe the pointer of a flap inside (DIN 3237)."""
 
     square: bool = chance(0.5, "its covers are square")
     bolts: tuple[int, ...] = several(one_of(4, 6, 8), 2, "of each round cover", when=lambda p: not p.square)
@@ -289,14 +292,14 @@ class BoltedWindows(SightGlass, name="sight glass/bolted windows", sizes=sizes_b
         covers = [along(axis, cover, x) for axis in ("y", "-y")]
         t.add(SIGHT_GLASS, flanged_body(self.dn, t.style, long, middle), core, *covers, of="valve")
         glass = cylinder(0.99 * pane, reach + 0.0005, reach + 0.6 * thick, n)
-        t.add("gauge glass", *(along(axis, glass, x) for axis in ("y", "-y")))
+        t.add("gauge glass", *(along(axis, glass, x) for axis in ("-y", "y")), front=(0.0, -1.0, 0.0))
         bolts = [bolt_circle(k, far, 0.006 + 0.1 * pane, reach - 0.002, high) for k in self.bolts or (4, 4)]
         t.add("bolt", *(along(axis, some, x) for axis, some in zip(("y", "-y"), bolts, strict=True)))
         if self.pointed:
-            pin = along("y", cylinder(0.004, reach + 0.6 * thick, high + 0.02, 8), x)
-            arrow = box((1.2 * pane, 0.003, 0.008), (0.3 * pane, 0, 0))
-            pose = at(x, high + 0.012, 0) @ spun("y", self.turn)
-            t.add("gauge needle", pin, moved(arrow, pose), of="handle")
+            pin = cylinder(0.004, reach + 0.6 * thick, high + 0.02, 8)
+            arrow = box((1.2 * pane, 0.008, 0.003), (0.3 * pane, 0, high + 0.012))
+            hand = t.at(x).along("-y").spun("z", self.turn)
+            hand.add("gauge needle", pin, arrow, of="handle", turns=Turning("needle"), front=FRONT)
         return t.model(length, kind=SIGHT_GLASS)
 
 
@@ -304,7 +307,7 @@ _SMALL = sizes_between(most=50)
 
 
 class Threaded(SightGlass, name="sight glass/threaded", sizes=_SMALL):
-    """A screwed bronze flow sight: two hexagon ends, a bowl with one or two screwed window rings, maybe a rotor."""
+    """A screwed bronze flow sight: two hexagon ends, a bowl with one or two screwed window rings."""
 
     single: bool = chance(0.5, "one window, not two")
     octagonal: bool = chance(0.5, "its window rings have eight sides")
@@ -320,7 +323,8 @@ class Threaded(SightGlass, name="sight glass/threaded", sizes=_SMALL):
         nut = outline(1.15 * r, deep - 0.006, 1.15 * r, deep + 0.008, 1.0 * r, deep + 0.012)
         body += [along(axis, turned(nut, 8 if self.octagonal else n), x) for axis in axes]
         t.add(SIGHT_GLASS, *body, of="handle" if self.painted else "trim")
-        t.add("gauge glass", *(along(axis, dome(0.8 * r, 0.25 * r, deep + 0.012, n), x) for axis in axes))
+        panes = [along(axis, dome(0.8 * r, 0.25 * r, deep + 0.012, n), x) for axis in axes]
+        t.add("gauge glass", *panes, front=(0.0, -1.0, 0.0))
         return t.model(length, "welded", SIGHT_GLASS)
 
 
@@ -338,7 +342,8 @@ class FullView(SightGlass, name="sight glass/full view", sizes=_SMALL):
         n, low, thick, line = t.n(r), 0.17 * length, 0.012, t.along("x")
         caps = [hex_end(self.dn, a, b, t.style) for a, b in ((0, low), (length - low, length))]
         square = rounded_rectangle(side, side, 0.2 * side, 3)
-        plate = extrude(square, low - thick, low) if self.square else cylinder(0.6 * side, low - thick, low, n)
+        plan = square if self.square else circle(0.6 * side, n)
+        plate = extrude(plan, low - thick, low, (circle(bore_of(self.dn, t.style), n),) if t.style.hollow else ())
         caps += [along("x", plate), along("x", plate, length - 2 * low + thick)]
         t.add(SIGHT_GLASS, *caps)
         line.add("gauge glass", ring(0.85 * r, r, low, length - low, n))
@@ -353,7 +358,7 @@ class FullView(SightGlass, name="sight glass/full view", sizes=_SMALL):
 
 
 class SightPort(SightGlass, name="sight glass/port", place="head", sizes=(50, 80, 100, 150, 200)):
-    """A round sight port on a vessel's nozzle (DIN 28120): a pane under a bolted ring, maybe a wiper or a lamp."""
+    """A round sight port on a vessel's nozzle (DIN 28120): a pane under a bolted ring, maybe a lamp."""
 
     bolts: int = among((4, 6, 8), "of its ring")
     lit: bool = chance(0.5, "a lamp over it")
@@ -364,12 +369,12 @@ class SightPort(SightGlass, name="sight glass/port", place="head", sizes=(50, 80
         cover = ring(inner, 0.55 * wide, thick, thick + 0.012, n)
         lip = ring(0.9 * pane, 1.05 * pane, thick + 0.01, thick + 0.018, n)
         t.add(SIGHT_GLASS, disc_flange(self.dn, t.style, thick + 0.002), cover, lip)
-        t.add("gauge glass", cylinder(0.99 * inner, thick + 0.002, thick + 0.009, n))
+        t.add("gauge glass", cylinder(0.99 * inner, thick + 0.002, thick + 0.009, n), front=FRONT)
         t.add("bolt", bolt_circle(self.bolts, 0.5 * wide, 0.006, thick + 0.001, thick + 0.012))
         if self.lit:
             post = rod((0.48 * wide, 0, thick + 0.011), (0.48 * wide, 0, thick + 0.08), 0.005, 8)
             torch = turned(outline(0.5 * inner, -0.02, 0.5 * inner, 0.07, 0.35 * inner, 0.09), 14)
-            lean = at(0.4 * wide, 0, thick + 0.08) @ spun("y", -0.5)
+            lean = at(0.4 * wide, 0, thick + 0.08) @ spun("y", 0.5)  # it shines on the pane's middle
             t.add("lamp", post, moved(torch, lean), of="electrical", own=True)
         return t.model(kind=SIGHT_GLASS)
 
@@ -385,9 +390,9 @@ class Refrigerant(SightGlass, name="sight glass/refrigerant", sizes=sizes_betwee
         n, middle = t.n(r), t.at(length / 2)
         stub = along("x", ring(bore_of(self.dn, t.style), 1.12 * radius, 0.0, length, t.n(radius)), -length / 2)
         middle.add(SIGHT_GLASS, stub, cylinder(r, -1.1 * radius, top, n), hexagon(2.1 * r, top - 0.012, top))
-        middle.add("gauge glass", dome(0.8 * r, 0.3 * r, top, n))
+        middle.add("gauge glass", dome(0.8 * r, 0.3 * r, top, n), front=FRONT)
         if self.capped:
-            strap = rod((0, 0.9 * r, top - 0.004), (0, 1.9 * r, top + 0.01), 0.002, 6)
+            strap = rod((0, 0.9 * r, top - 0.004), (0, 2.7 * r, top + 0.012), 0.002, 6)
             cap = moved(cylinder(0.9 * r, 0.0, 0.008, n), at(0, 2.7 * r, top + 0.01) @ spun("x", 0.7))
             middle.add(SIGHT_GLASS, strap, cap, of="rubber")
         return t.model(length, "welded", SIGHT_GLASS)

@@ -9,6 +9,7 @@ from cadplants.builder.dials import fine_sides
 from cadplants.builder.draws import made
 from cadplants.builder.params import Params, among, between, chance, several, whole
 from cadplants.builder.table import Table, outline
+from cadplants.families.instruments.pieces import FRONT
 from cadplants.families.valves.valve import bolt_circle, disc_flange
 from cadplants.family import Model
 from cadplants.flange import plate_thickness
@@ -93,10 +94,10 @@ class _Eye(Params):
         if self.screwed:
             t.add(SIGHT_GLASS, hexagon(2.6 * r, 0.0, 0.35 * r))
             t.add(SIGHT_GLASS, cylinder(1.1 * r, 0.35 * r, 0.5 * r, n))
-            t.add("gauge glass", dome(0.85 * r, 0.3 * r, 0.5 * r, n))
+            t.add("gauge glass", dome(0.85 * r, 0.3 * r, 0.5 * r, n), front=FRONT)
         else:
             t.add(SIGHT_GLASS, cylinder(1.6 * r, 0.0, 0.2 * r, n), ring(0.85 * r, 1.15 * r, 0.2 * r, 0.5 * r, n))
-            t.add("gauge glass", cylinder(0.84 * r, 0.2 * r, 0.35 * r, n))
+            t.add("gauge glass", cylinder(0.84 * r, 0.2 * r, 0.35 * r, n), front=FRONT)
             t.add("bolt", bolt_circle(self.bolts, 1.38 * r, 0.12 * r + 0.002, 0.1 * r, 0.2 * r))
 
 

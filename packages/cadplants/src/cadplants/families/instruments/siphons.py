@@ -258,7 +258,7 @@ class Tee(_Siphon, name="siphon/tee"):
     tube: float = among(_TUBES, _ABOUT_TUBE, "m")
     reach: float = between(3.5, 5, "radius of its bends / of the pipe")
     high: float = between(0.1, 0.16, "height of the first bend", "m")
-    arm: float = between(0.08, 0.13, "from the gauge to what is beside it", "m")
+    arm: float = between(0.04, 0.08, "from the gauge's case to the middle of what is beside it", "m")
     gauge: StandingGauge = nested(StandingGauge, "gauge")
     cock: bool = chance(0.5, "a test cock beside the gauge, not a switch")
     shank: Shank = nested(Shank, "connection of the switch", when=lambda p: not p.cock)
@@ -271,12 +271,13 @@ class Tee(_Siphon, name="siphon/tee"):
             _arc((3 * reach, reach + 2 * r), reach, np.pi, 2 * np.pi),
         )
         x, z = 4 * reach, high + 0.04
-        run = along("x", cylinder(0.011, -0.03, self.arm + 0.013, n), 0, 0, z + 0.02)
+        arm = self.arm + 0.6 * self.gauge.size
+        run = along("x", cylinder(0.011, -0.03, arm + 0.013, n), 0, 0, z + 0.02)
         tee = merge([cylinder(0.014, z - 0.01, z + 0.05, n), run])
         path = _joined([(0, 0, 0)], over, under, [(x, 0, z)])
         t.add("siphon", rope(path, r, fine_sides(r, t.style, 12)), moved(tee, at(x)), of="trim")
         self.gauge.build(t.at(x), z + 0.05)
-        t = t.at(x + self.arm, 0, z + 0.028)
+        t = t.at(x + arm, 0, z + 0.028)
         if self.cock:
             key = along("-y", t_handle(0.045, 0.04), 0, -0.01, 0.02)
             t.bundled(STEM).add(STEM, hexagon(0.024, 0.0, 0.03), key, hexagon(0.02, 0.03, 0.05))

@@ -83,8 +83,9 @@ class Kept(_Extinguisher, name="fire extinguisher/kept", weight=1.5):
     def _cabinet(self, t: Table, tall: float) -> None:
         """The extinguisher in its cabinet of this height [m]."""
         r, mid = self.radius, tall / 2
-        w, d = max(0.3, 4.2 * r), 2 * r + 0.1
-        self._unit(t.at(0.6 * r, -d / 2, 0.01))
+        horn = self.form == "horn"
+        w, d = max(0.3, (5.0 if horn else 4.2) * r), 2 * r + 0.1
+        self._unit(t.at(0.7 * r if horn else 0.0, -d / 2, 0.01))
         case = [box((0.01, d, tall), (q * (w / 2 - 0.005), -d / 2, mid)) for q in BOTH]
         case += [box((w, d, 0.01), (0, -d / 2, q)) for q in (0.005, tall - 0.005)]
         case += [box((w, 0.01, tall), (0, -0.005, mid))]
@@ -144,7 +145,7 @@ class Wheeled(_Extinguisher, name="fire extinguisher/wheeled"):
         t.add(_E, *(moved(_bottle(r, h, t.style), at(0, y, low)) for y in spots))
         ring_ = moved(torus(0.35 * r, 0.05 * r, 14, 6), at(0, 0, 0.45 * r))
         spoke = box((0.7 * r, 0.08 * r, 0.06 * r), (0, 0, 0.45 * r))
-        valve = merge([cylinder(0.25 * r, 0, 0.4 * r, 10), hexagon(0.5 * r, 0.1 * r, 0.3 * r), ring_, spoke])
+        valve = merge([cylinder(0.25 * r, 0, 0.46 * r, 10), hexagon(0.5 * r, 0.1 * r, 0.3 * r), ring_, spoke])
         t.add(_E, *(moved(valve, at(0, y, top)) for y in spots), of="trim")
         wide, x, hung = (2.3 if self.two else 1.3) * r + 0.06, -r - 0.06, low + 0.62 * h
         self._cart(t, r, wide, x, (low, h, top, hung))
@@ -152,7 +153,7 @@ class Wheeled(_Extinguisher, name="fire extinguisher/wheeled"):
         one = merge([ring(0.75 * wheel, wheel, -0.02, 0.02, 20), cylinder(0.2 * wheel, -0.025, 0.025, 12), spokes])
         t.add("caster", *(along("y", one, x, q * (wide + 0.03), wheel) for q in BOTH))
         turn = moved(torus(0.75 * r + 0.03, 0.014, 20, 6), spun("y", np.pi / 2))
-        coils = [moved(turn, at(r + 0.015 + 0.028 * k, 0, hung)) for k in range(self.coils)]
+        coils = [moved(turn, at(r + 0.014 + 0.026 * k, 0, hung)) for k in range(self.coils)]
         lead = [(0.2 * r, spots[-1], top + 0.2 * r), (r, 0, top), (r + 0.02, 0.5 * r, hung + 0.6 * r)]
         t.add("hose", *coils, rope(lead, 0.014, 8))
         return t.model()
@@ -173,7 +174,8 @@ class Wheeled(_Extinguisher, name="fire extinguisher/wheeled"):
             *bars,
             box((2 * r, 1.6 * wide, 0.02), (0, 0, low - 0.01)),
             *(box(foot, (0.7 * r, q * 0.6 * wide, foot[2] / 2)) for q in BOTH),
-            rod((0.8 * r, 0, hung + 0.75 * r), (r + 0.1, 0, hung + 0.75 * r), 0.01, 8),
+            rod((0.8 * r, 0, hung + 0.76 * r), (r + 0.1, 0, hung + 0.76 * r), 0.016, 8),
+            *([rod((r, -1.15 * r, hung + 0.76 * r), (r, 1.15 * r, hung + 0.76 * r), 0.012, 8)] if self.two else []),
             of="rubber",
         )
 

@@ -105,7 +105,8 @@ class _Flood(Params):
             fins = [box((0.005, 0.05, 0.9 * h), (q * w, d / 2 + 0.02, 0)) for q in np.linspace(-0.42, 0.42, 9)]
         yoke = [box((0.008, 0.04, 0.04), (s * side, 0, 0)) for s in BOTH]
         rim = box((1.05 * w, 0.02, 1.05 * h), (0, -d / 2, 0))
-        head.add(_L, box((w, d, h)), rim, *fins, *yoke, of="rubber")
+        pivot = along("x", cylinder(0.012, -side, side, 8))
+        head.add(_L, box((w, d, h)), rim, pivot, *fins, *yoke, of="rubber")
         head.add(_L, box((0.92 * w, 0.008, 0.92 * h), (0, -d / 2 - 0.013, 0)))
         bow = [(-side, y, 0), (-side, -0.014, 0), (side, -0.014, 0), (side, y, 0)]
         t.add(_L, rope(bow, 0.008, 6), box((0.1, 0.016, 0.05), (0, -0.008, 0)), of="clamp")

@@ -69,10 +69,11 @@ class Tray(Utility, name="cable tray/ladder and basket", weight=1.5):
 
     def build(self, t: Table) -> Model:
         length, w, z = self.length, self.width, self.level
+        floor = z + {"ladder": 0.0275, "perforated": 0.0015}.get(self.form, 0.002)
         t.add("cable tray", *self._solids(), of="clamp")
         for k, cable in enumerate(self.cables):
             r, y = cable.radius, cable.off * w
-            path = [(f * length, y + 0.05 * w * np.sin(3 * f + k), z + 0.03 + r) for f in np.linspace(-0.05, 1.05, 7)]
+            path = [(f * length, y + 0.05 * w * np.sin(3 * f + k), floor + r) for f in np.linspace(-0.05, 1.05, 7)]
             t.add("cable", rope(path, r, t.n(r, 6, 12)), own=False)
         for x in (0.15 * length, 0.85 * length):
             t.add("post", box((0.05, 0.05, z - 0.03), (x, 0, (z - 0.03) / 2)))
@@ -118,20 +119,22 @@ class WallConduit(Utility, name="conduit/wall"):
 
     def build(self, t: Table) -> Model:
         r, h, n = self.radius, self.height, t.n(self.radius, 6, 12)
-        t.add("wall", box((2.4, 0.15, h + 0.4), (1.0, 0.1, (h + 0.4) / 2)))
+        t.add("wall", box((2.6, 0.15, h + 0.4), (1.1, 0.1, (h + 0.4) / 2)))
         for k, run in enumerate(one for one in (self.first, self.second, self.third) if one is not None):
-            x, y, top, s = 0.3 * k, 0.02 - r, h - 0.05 - 0.1 * k, run.box
-            bend = [(x, 0.1), (x, top - 0.1), (x + 0.02, top - 0.02), (x + 0.1, top), (1.7 + 0.1 * k, top)]
+            x, y, top, s, end = 0.3 * k, 0.023 - r, h - 0.05 - 0.1 * k, run.box, 1.75 + 0.2 * k
+            bend = [(x, 0.1), (x, top - 0.1), (x + 0.02, top - 0.02), (x + 0.1, top), (end, top)]
             t.add("conduit", rope([(x, y, z) for x, z in bend], r, n))
             for z in (0.4, 0.5 * h):
                 ears = box((2 * r + 0.04, 0.002, 0.015), (x, y + r + 0.001, z))
                 t.add("clamp", ears, moved(ring(r, r + 0.002, -0.0075, 0.0075, 12), at(x, y, z)))
-            here = t.at(1.75 + 0.1 * k + 0.4 * s, 0.025, top)
+            mid = end + 0.4 * s
+            here = t.at(mid, 0.025, top)
             lid = box((1.04 * s, 0.1 * s, 1.04 * s), (0, -0.64 * s, 0))
             here.add("junction box", box((s, 0.6 * s, s), (0, -0.3 * s, 0)), lid)
             if run.tailed:
-                tail = [(1.75 + 0.4 * s, 0.025 - 0.3 * s, h - 0.05 - 0.5 * s), (1.75 + 0.4 * s, -0.02, h - 0.4)]
-                t.add("cable", rope([*tail, (1.9, -0.2, h - 0.7), (2.1, -0.3, 0.3)], 0.8 * r, n))
+                tail = [(mid, 0.025 - 0.3 * s, top - 0.5 * s), (mid, -0.02, top - 0.35)]
+                tail += [(mid + 0.1, -0.2, max(top - 0.65, 0.3)), (mid + 0.3, -0.3, 0.3)]
+                t.add("cable", rope(tail, 0.8 * r, n))
         return t.model()
 
 
@@ -147,20 +150,20 @@ class BoxOnPost(Utility, name="junction box/post", bundle="junction box", grain=
     post: _Post = nested(_Post, "post")
 
     def build(self, t: Table) -> Model:
-        h, s, n = self.height, self.width, 12
+        h, s, n, y = self.height, self.width, 12, 0.001 - self.post.radius
         d, tall = self.depth * s, self.tall * s
-        front, low = t.at(0, -0.04, h).moved(_UPRIGHT), h - tall / 2
+        front, low = t.at(0, y, h).moved(_UPRIGHT), h - tall / 2
         front.add("junction box", extrude(rounded_rectangle(s, tall, 0.08 * s, 3), 0.0, d))
         front.add("junction box", extrude(rounded_rectangle(1.02 * s, 1.02 * tall, 0.08 * s, 3), d, 1.15 * d))
         for x in (-0.25, 0.25):
             gland = [hexagon(0.026, -0.02, 0.0), cylinder(0.01, -0.035, 0.0, n)]
-            t.at(x * s, -0.04 - d / 2, low).add("junction box", *gland)
+            t.at(x * s, y - d / 2, low).add("junction box", *gland)
         for z in (-0.25, 0.0, 0.25) if self.buttons else ():
-            button = t.at(0, -0.04 - 1.15 * d, h + z * tall).along("-y")
+            button = t.at(0, y - 1.15 * d, h + z * tall).along("-y")
             button.add("junction box", cylinder(0.016, 0, 0.02, n), cylinder(0.02, 0.0, 0.008, n))
         for x, there in zip((-0.25, 0.25), self.cables, strict=True):
             if there:
-                path = [(x * s, -0.04 - d / 2, low - 0.03), (x * s, -0.05, low - 0.2), (x * s, 0.04, 0.15)]
+                path = [(x * s, y - d / 2, low - 0.03), (x * s, y - 0.015, low - 0.2), (x * s, y - 0.015, 0.03)]
                 t.add("cable", rope(path, 0.007, 8), own=False)
         self.post.build(t, h + 0.1)
         return t.model()
@@ -170,9 +173,9 @@ class Station(Utility, name="control panel/station", weight=1.2, bundle="control
     """A control panel: a wall box on legs, a desk with a sloping top, or a row of doors with handles and lamps."""
 
     form: str = among(("box", "desk", "row"), "what it is")
-    width: float = between(0.4, 1.0, "of a box, or half a desk's", "m")
-    depth: float = between(0.2, 0.4, "of a box", "m")
-    height: float = between(0.5, 1.1, "of a box", "m")
+    width: float = between(0.4, 1.0, "of a box, or half a desk's", "m", when=of_form("box", "desk"))
+    depth: float = between(0.2, 0.4, "of a box", "m", when=of_form("box"))
+    height: float = between(0.5, 1.1, "of a box", "m", when=of_form("box"))
     legs: float = between(0.6, 1.0, "height of a box's legs", "m", when=of_form("box"))
     count: int = whole(2, 4, "cabinets in a row", when=of_form("row"))
 
@@ -182,7 +185,7 @@ class Station(Utility, name="control panel/station", weight=1.2, bundle="control
             self._box(t)
         elif self.form == "desk":
             t.add(name, about_x(extrude(np.array(outline(-0.35, 0, 0.35, 0, 0.35, 1.1, 0.1, 1.1, -0.35, 0.85)), -w, w)))
-            screen = moved(box((0.5, 0.02, 0.3)), at(0, 0.05, 1.35) @ spun("x", -0.2))
+            screen = moved(box((0.5, 0.02, 0.3)), at(0, 0.125, 1.35) @ spun("x", -0.2))
             t.add(name, screen, box((0.06, 0.04, 0.15), (0, 0.1, 1.15)), of="rubber")
         for k in range(self.count):
             here = t.at(0.62 * k)
@@ -216,7 +219,7 @@ class LampHead(Utility, name="lamp/head", bundle="lamp", grain="structure"):
         self.post.build(t, h)
         up = t.at(0, 0, h)
         if self.form == "bulkhead":
-            front = up.at(0, -0.03, -0.1).moved(_UPRIGHT)
+            front = up.at(0, 0.003 - self.post.radius, -0.1).moved(_UPRIGHT)
             front.add(name, turned(outline(0.09, 0, 0.09, 0.03, 0.07, 0.04), n), of="clamp")
             front.add(name, dome(0.065, 0.1, 0.04, n))
             spots = [(0.08 * np.cos(a), 0.08 * np.sin(a)) for a in (0.0, 1.57, 3.14, 4.71)]
@@ -248,7 +251,7 @@ class CameraOnPost(Utility, name="camera/post", weight=1.5, bundle="camera", gra
         name, h, n = "camera", self.height, t.n(0.04)
         if self.form == "bullet":
             body = along("-y", turned(outline(0.035, 0, 0.038, 0.15, 0.03, 0.16), n))
-            solids = [body, box((0.09, 0.22, 0.005), (0, -0.09, 0.042)), along("-y", cylinder(0.02, 0.155, 0.165, n))]
+            solids = [body, box((0.09, 0.22, 0.005), (0, -0.09, 0.039)), along("-y", cylinder(0.02, 0.155, 0.165, n))]
             t.at(0, -0.15, h + 0.03).spun("x", 0.25).add(name, *solids)
         elif self.form == "dome":
             ceiling = turned(outline(0.06, -0.01, 0.065, 0.02, 0.065, 0.06), n)
@@ -277,7 +280,7 @@ class SignOnPost(Utility, name="sign/shapes"):
             "triangle": circle(s, 3, phase=np.pi / 2),
             "octagon": circle(s, 8, phase=np.pi / 8),
         }[self.form]
-        t.at(0, -0.042, h).moved(_UPRIGHT).add("sign", extrude(shape, 0.0, 0.003))
+        t.at(0, -self.post.radius, h).moved(_UPRIGHT).add("sign", extrude(shape, 0.0, 0.003))
         self.post.build(t, h + s)
         return t.model()
 
@@ -300,7 +303,7 @@ class Bottle(Utility, name="fire extinguisher/bottle", bundle="fire extinguisher
         top.add(
             name,
             hexagon(0.7 * r, 0, 0.4 * r),
-            cylinder(0.22 * r, 0, 0.6 * r, 10),
+            cylinder(0.22 * r, 0, 0.7 * r, 10),
             box((1.5 * r, 0.25 * r, 0.06 * r), (0.55 * r, 0, 0.65 * r)),
             lever,
             along("-y", cylinder(0.2 * r, 0.0, 0.15 * r, 10), 0, -0.3 * r, 0.2 * r),
@@ -322,9 +325,10 @@ class HoseReel(Utility, name="fire extinguisher/reel", weight=0.6, bundle="fire 
     def build(self, t: Table) -> Model:
         r, n, up = 0.26, t.n(0.26), t.at(0, 0, 1.0)
         reel = [along("y", cylinder(r, y, y + 0.01, n)) for y in (-0.12, 0.02)]
-        up.add("fire extinguisher", *reel, box((0.08, 0.16, 0.4), (0, 0.12, 0)))
-        rings = [torus(0.8 * r - 0.02 * (k % 2), 0.015, t.n(r, 12), 6) for k in range(4)]
-        coil = [moved(one, at(0, -0.1 + 0.03 * k) @ _UPRIGHT) for k, one in enumerate(rings)]
+        hub = along("y", cylinder(0.3 * r, -0.13, 0.05, n))
+        up.add("fire extinguisher", *reel, hub, box((0.08, 0.16, 0.4), (0, 0.12, 0)))
+        rings = [torus(0.8 * r - 0.005 * (k % 2), 0.018, t.n(r, 12), 6) for k in range(4)]
+        coil = [moved(one, at(0, -0.1 + 0.028 * k) @ _UPRIGHT) for k, one in enumerate(rings)]
         tail = rope([(0.78 * r, -0.05, 0), (0.9 * r, -0.1, -0.3), (0.6 * r, -0.15, -0.5)], 0.013, 8)
         up.add("hose", *coil, tail)
         t.add("wall", box((0.9, 0.15, 1.8), (0, 0.275, 0.9)))

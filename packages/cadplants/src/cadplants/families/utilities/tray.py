@@ -142,7 +142,7 @@ class TurningTray(_Trays, name="cable tray/turning"):
     level: float = between(1.8, 2.8, "of the tray over the floor", "m")
     bend: float = among((0.1, 0.3), "inner radius of the bend", "m")
     tee: bool = chance(0.6, "it begins with a tee", when=_SHEET)
-    cables: _Cables = nested(lambda s, p: _Cables.draw(s, {"width": p.width}), "cables")
+    cables: _Cables = nested(_Cables, "cables", fixed=lambda p: {"width": p.width})
 
     def build(self, t: Table) -> Model:
         form, w, side, a, b, z = self.form, self.width, self.side, self.before, self.after, self.level
@@ -186,15 +186,15 @@ class _Tier(Params):
     width: float = given(0.3, "of the tray", "m")
     form: str = among(_KINDS, _FORM)
     side: float = among((0.05, 0.06, 0.1), "height of its sides", "m")
-    cables: _Cables = nested(lambda s, p: _Cables.draw(s, {"width": p.width}), "cables")
-    covered: bool = chance(0.25, "a cover, if its floor is of sheet")
+    cables: _Cables = nested(_Cables, "cables", fixed=lambda p: {"width": p.width})
+    covered: bool = chance(0.25, "a cover", when=_SHEET)
 
     def build(self, t: Table, length: float) -> None:
         """Puts it down along x from 0 [m]."""
         w, floor = self.width, {"ladder": 0.03, "wire": 0.005}.get(self.form, 0.0015)
         t.add(_TRAY, _straight(self.form, length, w, self.side), of="clamp")
         self.cables.build(t, [(x, 0, floor) for x in (-0.1, length / 2, length + 0.1)])
-        if self.covered and _SHEET(self):
+        if self.covered:
             t.add(_TRAY, box((0.9 * length, w + 0.006, 0.002), (length / 2, 0, self.side + 0.001)), of="clamp")
 
 

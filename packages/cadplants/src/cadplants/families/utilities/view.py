@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 import numpy as np
 
 from cadgraph.model.scene import Floats
@@ -25,6 +27,9 @@ _C, _S = "camera", "sign"
 class _Head(Params):
     """A camera with what carries it, before y = 0."""
 
+    plate: ClassVar[float] = 0.0
+    """Height over the camera of what holds it at the wall, where a cable comes in [m]."""
+
     def build(self, t: Table, s: float) -> None:
         """Puts it down.
 
@@ -37,6 +42,8 @@ class _Head(Params):
 
 class _Bullet(_Head):
     """A bullet on a bracket."""
+
+    plate = -0.02
 
     long: float = between(0.12, 0.22, "of the case / how large the camera is", "m")
     shielded: bool = chance(0.5, "a shield over it")
@@ -58,6 +65,8 @@ class _Bullet(_Head):
 class _Dome(_Head):
     """A dome under an arm."""
 
+    plate = 0.03
+
     out: float = between(0.14, 0.3, "length of the arm", "m")
 
     def build(self, t: Table, s: float) -> None:
@@ -70,6 +79,8 @@ class _Dome(_Head):
 
 class _Swivel(_Head):
     """One that swivels under a gooseneck."""
+
+    plate = -0.16
 
     out: float = between(0.3, 0.5, "length of the gooseneck", "m")
 
@@ -87,6 +98,8 @@ class _Swivel(_Head):
 class _Housing(_Head):
     """One in a weatherproof housing with a sun roof."""
 
+    plate = -0.24
+
     long: float = between(0.28, 0.42, "of the housing / how large the camera is", "m")
     tilt: float = between(0.05, 0.4, "down", "rad")
 
@@ -94,7 +107,7 @@ class _Housing(_Head):
         w, long, y = 0.1 * s, self.long * s, -0.12
         body = moved(about_x(extrude(rounded_rectangle(w, 0.9 * w, 0.15 * w, 3), 0, long)), spun("z", -np.pi / 2))
         head = t.at(0, y).spun("x", self.tilt)
-        roof = box((1.25 * w, long + 0.08, 0.005), (0, -long / 2 - 0.02, 0.5 * w))
+        roof = box((1.25 * w, long + 0.08, 0.005), (0, -long / 2 - 0.02, 0.45 * w + 0.002))
         head.add(_C, body, roof, of="electrical")
         head.add(_C, box((0.8 * w, 0.006, 0.7 * w), (0, -long - 0.002, 0)), of="rubber")
         arm = rope([(0, 0.0, -0.22), (0, y - 0.1, -0.16), (0, y - 0.12, -0.05)], 0.018, 8)
@@ -116,7 +129,8 @@ class _Camera(Utility, bundle=_C, grain="structure"):
         self.head.build(t.at(0, 0, z), self.scale)
         if self.boxed:
             t.add("junction box", box((0.12, 0.06, 0.12), (0, -0.03, z - 0.45)), own=False)
-            t.add("cable", rope([(0, -0.03, z - 0.4), (0, -0.03, z - 0.1)], 0.006, 6), own=False)
+            end = z + self.head.plate
+            t.add("cable", rope([(0, -0.03, z - 0.4), (0, -0.007, end - 0.05), (0, -0.007, end)], 0.006, 6), own=False)
         self.back.build(t, z + 0.4)
         return t.model()
 

@@ -85,8 +85,9 @@ class OnStruts(Utility, name="conduit/strut", weight=1.5):
             t.add("conduit", rope(run.path(y, high, length, length - k * pitch), r, n))
             half, reach = np.pi * np.linspace(0, 1, 8), r + 0.002
             for x in xs:
-                strap = rope([(x, y - reach * np.sin(a), high + reach * np.cos(a)) for a in half], 0.003, 5)
-                t.add("clamp", strap, *(box((0.03, 0.004, 0.012), (x, -0.043, high + s * (r + 0.008))) for s in BOTH))
+                bow = [(x, y - reach * np.sin(a), high + reach * np.cos(a)) for a in half]
+                strap = rope([(x, -0.043, high + reach), *bow, (x, -0.043, high - reach)], 0.003, 5)
+                t.add("clamp", strap, *(box((0.044, 0.004, 0.012), (x, -0.043, high + s * (r + 0.008))) for s in BOTH))
             if run.coupled:
                 nuts = [hexagon(2.9 * r, low * r, (low + 0.7) * r) for low in (-2.2, 1.5)]
                 there = t.at(0.4 * length, y, high).along("x")
@@ -298,7 +299,7 @@ class Coiled(Utility, name="cable/coiled", weight=1.2):
     wide: float = between(0.3, 0.6, "of the drum", "m", when=_wound)
     count: int = whole(4, 8, "turns of the coil", when=_coil)
     shifts: tuple[float, ...] = several(
-        number(-1.5, 1.5), lambda p: p.count, "how much wider a turn is / radius of the cable", when=_coil
+        number(-0.5, 0.5), lambda p: p.count, "how much wider a turn is / radius of the cable", when=_coil
     )
     tilts: tuple[float, ...] = several(
         number(-0.02, 0.02), lambda p: p.count - 1, "of a turn", "rad", when=of_form("floor")
@@ -320,9 +321,10 @@ class Coiled(Utility, name="cable/coiled", weight=1.2):
                 there.add("clamp", torus(0.9 * r * count, 0.003, 10, 4), of="dial")
             return t.model()
         z, deep = self.height, 0.06 + 1.7 * r * count
-        poses = [at(0, -0.03 - 1.7 * r * k, z - big) @ spun("x", np.pi / 2) for k in range(count)]
+        drops = [z - big - shift * r for shift in self.shifts]
+        poses = [at(0, -0.03 - 1.7 * r * k, low) @ spun("x", np.pi / 2) for k, low in enumerate(drops)]
         t.add("cable", *map(moved, rings, poses))
-        hook = rope([(0, 0, z - r - 0.012), (0, -deep, z - r - 0.012), (0, -deep - 0.01, z + 0.03)], 0.01, 8)
+        hook = rope([(0, 0, z - r - 0.008), (0, -deep, z - r - 0.008), (0, -deep - 0.01, z + 0.03)], 0.01, 8)
         t.add("bracket", hook, box((0.08, 0.008, 0.12), (0, -0.004, z)))
         t.extend([wall(-0.6, 0.6, z + 0.5)])
         return t.model()
@@ -336,7 +338,7 @@ class Coiled(Utility, name="cable/coiled", weight=1.2):
         turns = int(np.clip(wide / (2.2 * self.radius), 4, 14))
         q = wide / turns / 2
         rings = [
-            moved(torus(core + q + k % 2 * 0.3 * q, q, min(n, 24), 6), at(0, 0, -wide / 2 + (2 * k + 1) * q))
+            moved(torus(core + q + k % 2 * 0.3 * q, 1.18 * q, min(n, 24), 6), at(0, 0, -wide / 2 + (2 * k + 1) * q))
             for k in range(turns)
         ]
         lying, out = t.at(0, 0, big).spun("x", np.pi / 2), core + q
