@@ -9,6 +9,7 @@ from cadplants.builder.table import Table, outline
 from cadplants.families.valves.actuation_base import INDICATORS, QUARTERS, put_indicator, put_stem
 from cadplants.families.valves.actuation_hand import Handwheel, cylinder_at, scaled, slab
 from cadplants.mesh_ops import Solid
+from cadplants.plant import Turning
 from cadplants.polygon import rounded_rectangle
 from cadplants.primitives import along, around, box, cylinder, hexagon, ring, rod, rope, turned
 
@@ -29,13 +30,14 @@ class _Input(Params):
         if self.make == "wheel":
             self.wheel.build(t, size, reach, "gear operator")
         elif self.make == "chainwheel":
-            t.add("handwheel", *self._chainwheel(t, size, reach))
+            t.add("handwheel", *self._chainwheel(t, size, reach), turns=Turning("gear operator"))
         elif self.make == "square":
             t.bundled("gearbox").add("valve stem", box((0.22 * size, 0.22 * size, 0.05), (0, 0, reach + 0.02)))
         else:
             arm = box((size, 0.12 * size, 0.06 * size), (0.45 * size, 0, 0.05 * size))
             grip = cylinder_at(0.07 * size, 0.02 * size, 0.6 * size, 0.88 * size)
-            t.at(0, 0, reach).add("lever", arm, cylinder(0.14 * size, 0.0, 0.16 * size, 12), grip)
+            eye = cylinder(0.14 * size, 0.0, 0.16 * size, 12)
+            t.at(0, 0, reach).add("lever", arm, eye, grip, turns=Turning("gear operator"))
 
     def _chainwheel(self, t: Table, size: float, reach: float) -> list[Solid]:
         """The chainwheel, which stands upright beside the case: its chain hangs along the local -x."""

@@ -59,7 +59,7 @@ class Wheel(Params):
     def build(self, t: Table, radius: float, z: float = 0.0, turns: str = "handwheel") -> None:
         """Puts it down with its hub on a height [m]; ``turns``: what it is turned as."""
         solid = moved(self.solid(radius, t.style), spun("z", self.turn))
-        t.at(0, 0, z).add("handwheel", solid, turns=Turning(turns) if turns else None)
+        t.at(0, 0, z).add("handwheel", solid, turns=Turning(turns))
 
 
 def _strip(path: list[tuple[float, float]], half: float, thick: float) -> Solid:
@@ -228,9 +228,11 @@ class _Electric(Params):
         foot = cylinder(0.5 * half, 0.0, 0.5 * half, n)
         t.add("actuator", foot, case, lid, along("x", can, 1.3 * half, 0, 1.2 * half), gland)
         if self.wheeled:
-            size, rim, hub = round(0.7 * half, 6), round(0.07 * half, 6), round(0.15 * half, 6)
-            wheel_ = along("y", handwheel(size, rim, 3, hub, hub, 0.003, max(12, n)), 0, 0.95 * half, 1.2 * half)
-            t.add("handwheel", wheel_, along("y", cylinder(0.1 * half, 0.85 * half, 1.05 * half, 8), 0, 0, 1.2 * half))
+            size, rim, eye = round(0.7 * half, 6), round(0.07 * half, 6), round(0.15 * half, 6)
+            wheel_ = along("y", handwheel(size, rim, 3, eye, eye, 0.003, max(12, n)), 0, 0.95 * half, 1.2 * half)
+            hub = along("y", cylinder(0.1 * half, 0.85 * half, 1.05 * half, 8), 0, 0, 1.2 * half)
+            turning = Turning("gear operator", (0.0, 1.0, 0.0), (0.0, 0.0, 1.2 * half))
+            t.add("handwheel", wheel_, hub, turns=turning)
 
 
 class DiaphragmHead(Params):

@@ -15,6 +15,7 @@ from cadplants.families.valves.valve import Valve, bolt_circle, disc_flange, fla
 from cadplants.family import Model
 from cadplants.flange import plate_thickness
 from cadplants.mesh_ops import Solid, moved
+from cadplants.plant import Turning
 from cadplants.primitives import BOTH, along, around, ball, box, cylinder, hexagon, ring, rod, rope, turned
 from cadplants.standards import FACE_TO_FACE, sizes_between
 from cadplants.transforms import at
@@ -62,7 +63,7 @@ class FilterBowl(Valve, name="pressure reducing valve/filter bowl", sizes=SMALL)
         up.add("valve bonnet", turned(hood, n))
         if self.top == "knob":
             knob = outline(0.8 * w, -0.002, 0.9 * w, 0.1 * w, 0.9 * w, 0.6 * w, 0.7 * w, 0.75 * w)
-            end.add("handwheel", turned(knob, max(8, n)))
+            end.add("handwheel", turned(knob, max(8, n)), turns=Turning("handwheel"))
         elif self.top == "screw":
             end.add("valve stem", cylinder(0.12 * w, -0.002, 0.7 * w, 8), hexagon(0.4 * w, 0, 0.2 * w))
         marks = (
@@ -295,7 +296,7 @@ class MixingValve(Valve, name="mixing valve/thermostatic", sizes=SMALL):
             knob = outline(1.1 * w, -0.002, 1.25 * w, 0.2 * w, 1.15 * w, 1.3 * w, 0.8 * w, 1.5 * w)
             rib = box((0.12 * w, 0.12 * w, 0.9 * w), (0, 0, 0.75 * w))
             ribs = [around(rib, self.ribs, 1.2 * w)] if self.ribs else []
-            up.add("handwheel", turned(knob, max(8, n)), *ribs, of="rubber")
+            up.add("handwheel", turned(knob, max(8, n)), *ribs, of="rubber", turns=Turning("handwheel"))
         else:
             cap = turned(outline(0.7 * w, 0.4 * w, 0.6 * w, 1.4 * w), n)
             up.add("valve bonnet", hexagon(1.9 * w, -0.002, 0.5 * w), cap)

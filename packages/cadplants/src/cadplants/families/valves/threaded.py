@@ -14,6 +14,7 @@ from cadplants.families.valves.valve import Valve
 from cadplants.family import Model
 from cadplants.mesh_ops import Solid, extrude, merge, moved
 from cadplants.modeling_style import ModelingStyle
+from cadplants.plant import Turning
 from cadplants.polygon import circle, rounded_rectangle
 from cadplants.primitives import BOTH, along, box, cylinder, hexagon, ring, rod, turned
 from cadplants.standards import PIPES, sizes_between
@@ -229,7 +230,7 @@ class Balancing(_Threaded, name="globe valve/balancing"):
         n, way = t.n(b), t.at(0.5 * length).spun("y", 0.78)
         way.add("valve bonnet", turned(outline(0.8 * b, 0.0, 0.75 * b, 2.2 * b, 0.6 * b, 2.3 * b), n))
         knob = outline(1.1 * b, 2.3 * b, 1.2 * b, 2.4 * b, 1.2 * b, 3.6 * b, 1.0 * b, 3.8 * b)
-        way.add("handwheel", turned(knob, max(10, n)))
+        way.add("handwheel", turned(knob, max(10, n)), turns=Turning("handwheel"))
         for f in (0.3, 0.7):
             test = rod((0, 0.3 * b, 0.5 * b), (0, 1.6 * b, 1.2 * b), 0.16 * b, 8)
             t.at(length * f).add("valve body", test, of="trim")
@@ -254,10 +255,11 @@ class ThreadedRelief(Valve, name="relief valve/threaded", place="tap"):
         up.add("valve bonnet", turned(outline(0.85 * b, 0, 0.75 * b, tall), n), hexagon(1.7 * b, 0, 0.4 * b))
         if self.knob:
             knob = outline(0.9 * b, tall, 1.0 * b, tall + 0.3 * b, 0.95 * b, tall + b)
-            up.add("handwheel", turned(knob, max(8, n)))
+            up.add("handwheel", turned(knob, max(8, n)), turns=Turning("handwheel"))
         else:
             arm = rod((0, -0.2 * b, tall), (0, 2.4 * b, 0.8 * tall), 0.15 * b, 8)
-            up.add("lever", arm, cylinder(0.4 * b, tall, tall + 0.5 * b, n))
+            turning = Turning("lever", (1.0, 0.0, 0.0), (0.0, -0.2 * b, tall))
+            up.add("lever", arm, cylinder(0.4 * b, tall, tall + 0.5 * b, n), turns=turning)
         return t.model(kind="relief valve")
 
 

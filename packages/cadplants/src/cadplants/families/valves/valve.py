@@ -10,11 +10,13 @@ import numpy as np
 from cadplants.builder.device import Device, families_of
 from cadplants.builder.params import among, between, chance, nested
 from cadplants.builder.table import Table, outline
+from cadplants.families.valves.base import LAID
 from cadplants.families.valves.drive import BODY, DiaphragmHead, Wheel, drive_of, put_spindle
 from cadplants.family import Model
 from cadplants.flange import face_shell, nut_room, plate_thickness
 from cadplants.mesh_ops import Solid, about_x, extrude, merge, moved, revolve, weld
 from cadplants.modeling_style import ModelingStyle
+from cadplants.plant import Turning
 from cadplants.polygon import circle, rounded_rectangle
 from cadplants.primitives import along, around, ball, box, cylinder, dome, hexagon, ring, rod, turned
 from cadplants.standards import FACE_TO_FACE, FLANGES, PIPES, SIZES, sizes_between
@@ -452,7 +454,7 @@ class GlobeY(_Swollen, name="globe valve/Y pattern", sizes=MID):
         cap = outline(rim, reach + 0.012, rim, reach + 0.026, 0.5 * bulge, reach + 0.04, 0.4 * bulge, high)
         t.add("valve bonnet", turned(cap, n))
         put_spindle(t, high, high + 0.04 + 0.8 * radius, 0.005 + 0.1 * radius)
-        self.wheel.build(t, 0.04 + 1.3 * radius, high + 0.02 + 0.6 * radius, "")
+        self.wheel.build(t, 0.04 + 1.3 * radius, high + 0.02 + 0.6 * radius)
         return t.model(length, kind="globe valve")
 
 
@@ -501,7 +503,8 @@ class Relief(Valve, name="relief valve/spring", sizes=MID, place="head", weight=
         bolts = bolt_circle(4, 1.0 * b, 0.01 + 0.05 * radius, low - 0.15 * b, low + 0.15 * b)
         t.add("bolt", about_x(bolts))
         if self.levered:
-            t.add("lever", rod((low + 1.2 * tall, 0.0, 0.3 * b), (low + 0.75 * tall, 0.0, 1.6 * b), 0.1 * b, 8))
+            pin, tip = (low + 1.2 * tall, 0.0, 0.3 * b), (low + 0.75 * tall, 0.0, 1.6 * b)
+            t.add("lever", rod(pin, tip, 0.1 * b, 8), turns=Turning("lever", (0.0, -1.0, 0.0), pin))
         return t.model(kind="relief valve")
 
 
@@ -520,9 +523,9 @@ class GlobeAngle(Valve, name="globe valve/angle", sizes=MID, place="head"):
         t.add("valve body", inlet, moved(ball(b, n), at(centre)), outlet)
         neck = outline(0.85 * b, centre, 0.85 * b, high, 1.1 * b, high, 1.1 * b, high + 0.03, 0.5 * b, high + 0.05)
         t.add("valve bonnet", about_x(turned([*neck, (0.4 * b, top)], n)))
-        t = t.moved(np.eye(4)[[2, 0, 1, 3]])  # as ``about_x`` lays it
+        t = t.moved(LAID)
         put_spindle(t, top, top + 0.05 + radius, 0.005 + 0.1 * radius)
-        self.wheel.build(t, 0.04 + 1.3 * radius, top + 0.03 + 0.7 * radius, "")
+        self.wheel.build(t, 0.04 + 1.3 * radius, top + 0.03 + 0.7 * radius)
         return t.model(kind="globe valve")
 
 
