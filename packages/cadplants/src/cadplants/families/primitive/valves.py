@@ -315,7 +315,7 @@ class ThreeCones(_Valve, name="valve/three cones", weight=2):
         cones = [(wide, waist, 0.0, length / 2), (waist, wide, length / 2, length)]
         t.add(_BODY, *(lying(cone(*one, style)) for one in cones))
         hood = cone(waist, wide * self.hood, 0.0, high, style) if self.flared else disc(waist, 0, high, style)
-        t.add("valve bonnet", hood)
+        t.at(length / 2).add("valve bonnet", hood)
         self.top.build(t, length / 2, 0.9 * high)
         return t.model(length, self.joint, "globe valve")
 
