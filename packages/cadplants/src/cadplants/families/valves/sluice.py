@@ -120,10 +120,9 @@ class Pedestal(Valve, name="gate valve/pedestal", sizes=BIG, weight=0.7):
 
     hollow: bool = styled(True, "whether insides are modelled")
     valve: Resilient = nested(
-        lambda s, p: Resilient.draw(
-            np.random.default_rng(int(s.rng.integers(1 << 30))), {"dn": p.dn, "hollow": p.hollow}
-        ),
+        Resilient,
         "valve below the floor",
+        fixed=lambda p: {"dn": p.dn, "hollow": p.hollow, "spindle.make": "cap"},
     )
     reach: float = between(0.35, 0.8, "from the valve to the floor", "m")
     half: float = between(0.08, 0.13, "size of the pedestal's head", "m")
@@ -135,9 +134,8 @@ class Pedestal(Valve, name="gate valve/pedestal", sizes=BIG, weight=0.7):
 
     def build(self, t: Table) -> Model:
         below = self.valve.build(replace(t, parts=[]))
-        kept = [p for p in below.parts if p.name != "handwheel"]
-        t.extend(kept)
-        heads = [p for p in kept if p.name in ("valve bonnet", "gland", "valve stem")]
+        t.extend(below.parts)
+        heads = [p for p in below.parts if p.name in ("valve bonnet", "gland", "valve stem")]
         top = max(float(p.solid.vertices[:, 2].max()) for p in heads)
         reach, slim, half, tall = self.reach, 0.012, self.half, self.tall
         t = t.at(below.length / 2, 0, top)

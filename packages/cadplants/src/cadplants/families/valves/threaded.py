@@ -156,33 +156,6 @@ class ThreadedGlobe(_Bronze, name="globe valve/threaded"):
     said: ClassVar[str] = "globe valve"
 
 
-class Needle(_Threaded, name="needle valve/bar stock", sizes=(15, 20, 25)):
-    """A needle valve: a block of bar or a hexagon, a bonnet nut, a T bar or a knob."""
-
-    block: bool = chance(0.5, "made of flat bar, not of a hexagon")
-    barred: bool = chance(0.6, "a T bar rather than a wheel")
-    bar: Any = drive_of("bar", when=lambda p: p.barred)
-    wheel: Wheel = nested(Wheel, "handwheel", when=lambda p: not p.barred)
-
-    def build(self, t: Table) -> Model:
-        r, half = t.pipe.radius, 1.2 * t.pipe.radius + 0.003
-        length, up, slim = 4.0 * r + 0.03, t.at((4.0 * r + 0.03) / 2), 0.28 * half
-        if self.block:
-            up.add("valve body", box((length, 2 * half, 2.2 * half), (0, 0, 0.2 * half)))
-        else:
-            bar = along("x", hexagon(2 * half, -length / 2, length / 2))
-            up.add("valve body", bar, cylinder(0.9 * half, 0.0, 1.3 * half, 12))
-        neck = cylinder(0.55 * half, 2.0 * half, 3.2 * half, 12)
-        up.add("valve bonnet", hexagon(1.7 * half, 1.25 * half, 2.1 * half), neck, of="trim")
-        up.add("gland", hexagon(1.2 * half, 3.1 * half, 3.6 * half))
-        put_spindle(up, 3.5 * half, 5.2 * half, slim)
-        if self.barred:
-            self.bar.build(up.at(0, 0, 4.8 * half))
-        else:
-            self.wheel.build(up, 1.5 * half + 0.005, 4.6 * half)
-        return self.done(t, length, "needle valve")
-
-
 class ThreadedCheck(_Threaded, name="check valve/threaded", weight=1.5):
     """A threaded check valve: spring type in a cylinder, or swing type with a screwed cap."""
 
@@ -292,6 +265,6 @@ class Cock(Valve, name="sampling valve/cock", place="tap"):
 
 
 THREADED = families_of(
-    ThreadedBall, ThreePiece, ThreadedGate, ThreadedGlobe, Needle, ThreadedCheck, Solenoid, Balancing, ThreadedRelief,
+    ThreadedBall, ThreePiece, ThreadedGate, ThreadedGlobe, ThreadedCheck, Solenoid, Balancing, ThreadedRelief,
     AirVent, Cock,
 )  # fmt: skip
