@@ -48,13 +48,16 @@ class AngleSeat(Valve, name="angle seat valve/piston", sizes=SMALL):
             side = [(r, 0.0), *core, (r, length)]
             run = along("x", turned(side, style.round(1.3 * r), bore=bore_of(self.dn, style)))
         pose = at(0.5 * length) @ spun("y", self.tilt)
-        n, wide, low = style.round(1.6 * r), 1.15 * r + 0.002, 2.4 * r
-        t.add("valve body", run, moved(turned(outline(wide, 0, wide, 2.2 * r, 0.85 * wide, low), n), pose))
+        n, wide, tall = style.round(1.6 * r), 1.15 * r + 0.002, 0.4 * r if self.nutted else 1.4 * r
+        rim, high, tilt = self.rim * r + 0.012, self.high * r + 0.03, abs(self.tilt)
+        # The actuator's lower edge clears the run.
+        clear = (1.3 * r + 0.005) / np.cos(tilt) + rim * np.tan(tilt) - 0.12 * high
+        low = max(2.4 * r, clear - 0.8 * tall)
+        t.add("valve body", run, moved(turned(outline(wide, 0, wide, low - 0.2 * r, 0.85 * wide, low), n), pose))
         t = t.moved(pose)
-        tall = 0.4 * r if self.nutted else 1.4 * r
         nut = hexagon(2.1 * wide, low - 0.5 * r, low + 0.3 * r)
         t.add("valve bonnet", nut if self.nutted else cylinder(0.6 * wide, low - 0.001, low + 1.4 * r, n))
-        base, rim, high = low + 0.8 * tall, self.rim * r + 0.012, self.high * r + 0.03
+        base = low + 0.8 * tall
         can = outline(0.7, 0, 1, 0.12, 1, 0.5, 1.04, 0.5, 1.04, 0.58, 1, 0.58, 0.95, 0.9, 0.55, 1)
         solids = [turned([(s * rim, base + z * high) for s, z in can], style.round(rim))]
         port = cylinder(0.008, 0.8 * rim, 1.05 * rim + 0.004, 10), hexagon(0.014, rim, rim + 0.012)

@@ -74,6 +74,11 @@ def bolt_circle(count: int, radius: float, thread: float, low: float, high: floa
     return around(one, count, radius, np.pi / count)
 
 
+def _clear(t: Table, rim: float, tilt: float) -> float:
+    """How far from the axis a cover of a radius, tilted towards an end, passes the flange there [m, rad]."""
+    return float((0.5 * t.flange.outer + 0.012 + rim * np.sin(tilt)) / np.cos(tilt))
+
+
 class Valve(Device, place="inline", group="Valve assembly", label="valve", bundle=BODY):
     """A valve along x from 0, its stem towards +z."""
 
@@ -252,7 +257,8 @@ class Weir(Valve, name="diaphragm valve/weir", sizes=MID):
         t.add("valve body", collar)
         t.add("gasket", cylinder(0.95 * half, z, z + 0.003, n), of="rubber", own=True)
         t.add("valve bonnet", lid, dome(0.85 * half, 0.8 * half, z + 0.014, n))
-        t.add("bolt", bolt_circle(4, 1.15 * half, 0.008 + 0.06 * radius, z - 0.01, z + 0.014))
+        spread = (1.15 if self.square else 0.86) * half
+        t.add("bolt", bolt_circle(4, spread, min(0.008 + 0.06 * radius, 0.14 * half), z - 0.01, z + 0.014))
         top = z + 0.014 + 0.75 * half
         put_spindle(t, top, top + 0.03 + 0.5 * radius, 0.004 + 0.1 * radius)
         self.wheel.build(t, 0.03 + 1.2 * radius, top + 0.015 + 0.3 * radius)
@@ -387,13 +393,14 @@ class BallCheck(_Swollen, name="check valve/ball", sizes=MID):
     def build(self, t: Table) -> Model:
         length = FACE_TO_FACE["check"][self.dn]
         bulge, whole_table = self.put_body(t, length), t
-        n, reach = t.style.round(bulge), max(2.4 * bulge, 0.6 * t.flange.outer)
-        arm, rim = 0.95 * bulge, 1.2 * bulge
+        n, arm, thread = t.style.round(bulge), 0.95 * bulge, 0.004 + 0.06 * bulge
+        rim = arm + 2.2 * thread
+        reach = max(2.4 * bulge, _clear(t, rim, self.tilt) - 0.2 * bulge)
         t = t.at(0.55 * length, 0, 0.2 * bulge).spun("y", self.tilt)
         t.add("valve body", turned(outline(arm, 0, arm, reach, rim, reach, rim, reach + 0.012), n))
         lid = outline(rim, reach + 0.012, rim, reach + 0.026, 0.6 * bulge, reach + 0.036)
         t.add("valve bonnet", turned(lid, n))
-        t.add("bolt", bolt_circle(4, 1.08 * bulge, 0.01, reach, reach + 0.026))
+        t.add("bolt", bolt_circle(4, arm + 1.1 * thread, thread, reach, reach + 0.026))
         return whole_table.model(length, kind="check valve")
 
 
@@ -447,8 +454,9 @@ class GlobeY(_Swollen, name="globe valve/Y pattern", sizes=MID):
     def build(self, t: Table) -> Model:
         length, radius = FACE_TO_FACE["globe"][self.dn], self.radius
         bulge = self.put_body(t, length)
-        n, reach = t.style.round(bulge), max(2.2 * bulge, 0.65 * t.flange.outer)
-        neck, rim, high = 0.85 * bulge, 1.15 * bulge, reach + 0.06 + radius
+        n, neck, rim = t.style.round(bulge), 0.85 * bulge, 1.15 * bulge
+        reach = max(2.2 * bulge, _clear(t, rim, self.tilt))
+        high = reach + 0.06 + radius
         t = t.at(0.48 * length, 0, 0.1 * bulge).spun("y", self.tilt)
         t.add("valve body", turned(outline(neck, 0, neck, reach, rim, reach, rim, reach + 0.012), n))
         cap = outline(rim, reach + 0.012, rim, reach + 0.026, 0.5 * bulge, reach + 0.04, 0.4 * bulge, high)
@@ -469,13 +477,13 @@ class Reducing(_Swollen, name="pressure reducing valve/spring", sizes=MID):
         length = FACE_TO_FACE["globe"][self.dn]
         b, t = self.put_body(t, length), t.at(length / 2)
         n, z = t.style.round(2 * b), max(1.2 * b, 0.5 * t.flange.outer)
-        pan = outline(0.7 * b, 0.6 * b, 0.7 * b, z, 1.7 * b, z + 0.2 * b, 1.7 * b, z + 0.35 * b)
-        hood = outline(1.7, 0.35, 1.7, 0.5, 0.75, 0.9, 0.7, 2.6, 0.4, 2.8)
-        t.add("valve body", turned(pan, n))
-        t.add("valve bonnet", turned([(r * b, z + h * b) for r, h in hood], n))
+        pan = outline(0.7, 0.6 - z / b, 0.7, 0, 1.3, 0.2, 1.7, 0.2, 1.7, 0.35)
+        hood = outline(1.7, 0.35, 1.7, 0.5, 1.3, 0.5, 0.75, 0.9, 0.7, 2.6, 0.4, 2.8)
+        for name, side in (("valve body", pan), ("valve bonnet", hood)):
+            t.add(name, turned([(r * b, z + h * b) for r, h in side], n))
         screw = cylinder(0.1 * b + 0.003, z + 2.75 * b, z + 3.3 * b, 8)
         t.add("valve stem", screw, hexagon(0.4 * b, z + 2.8 * b, z + 3.0 * b))
-        t.add("bolt", bolt_circle(8, 1.55 * b, 0.01, z + 0.2 * b, z + 0.5 * b))
+        t.add("bolt", bolt_circle(8, 1.5 * b, min(0.016, 0.2 * b), z + 0.2 * b, z + 0.5 * b))
         if self.canned:
             t.at(0, 0, -1.35 * b).add("valve body", cylinder(0.9 * b, 0.0, 0.5 * b, n))
         return t.model(length, kind="pressure reducing valve")
@@ -492,15 +500,15 @@ class Relief(Valve, name="relief valve/spring", sizes=MID, place="head", weight=
         out = SIZES[min(SIZES.index(self.dn) + 1, len(SIZES) - 1)]
         centre = 0.6 * size.outer + 0.03  # API 526 proportions: centre to inlet face about the flange's radius and more
         b, n, reach = 1.6 * radius + 0.010, t.style.round(size.outer / 2), 0.6 * FLANGES[out].outer + 0.03
-        chest = [(r * b, centre + z * b) for r, z in outline(0.8, -1, 1, -0.5, 1, 0.7, 1.15, 0.8, 1.15, 0.95)]
+        chest = [(r * b, centre + z * b) for r, z in outline(0.8, -1, 1, -0.5, 1, 0.7, 1.35, 0.8, 1.35, 0.95)]
         outlet = along("y", moved(disc_flange(out, t.style, reach), at(0, 0, -reach)), centre)
         t.add("valve body", about_x(disc_flange(self.dn, t.style, centre)), about_x(turned(chest, n)), outlet)
         tall, low = self.tall * b, centre + 0.95 * b
-        rim, top = outline(1.15 * b, low, 1.15 * b, low + 0.15 * b, 0.75 * b, low + 0.35 * b), low + tall
+        rim, top = outline(1.35 * b, low, 1.35 * b, low + 0.15 * b, 0.75 * b, low + 0.35 * b), low + tall
         t.add("valve bonnet", about_x(turned([*rim, (0.7 * b, low + 0.8 * tall), (0.5 * b, top)], n)))
         cap = [cylinder(0.38 * b, low + 0.95 * tall, low + 1.3 * tall, n), hexagon(0.9 * b, top, low + 1.1 * tall)]
         t.add("valve bonnet", *map(about_x, cap), of="trim")
-        bolts = bolt_circle(4, 1.0 * b, 0.01 + 0.05 * radius, low - 0.15 * b, low + 0.15 * b)
+        bolts = bolt_circle(4, 1.17 * b, min(0.024, 0.16 * b), low - 0.15 * b, low + 0.15 * b)
         t.add("bolt", about_x(bolts))
         if self.levered:
             pin, tip = (low + 1.2 * tall, 0.0, 0.3 * b), (low + 0.75 * tall, 0.0, 1.6 * b)
