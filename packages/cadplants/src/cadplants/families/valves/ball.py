@@ -236,8 +236,8 @@ class Segment(_Ball, name="ball valve/segment", sizes=sizes_between(25)):
 
     def build(self, t: Table) -> Model:
         radius, size, bore = self.radius, t.flange, t.pipe.bore
-        length, outer = 0.095 + 0.75 * radius, 0.49 * (size.circle - size.bolt)
-        x, n = 0.45 * length, t.n(outer, 16)
+        length, outer = 0.08 + 1.7 * radius, 0.49 * (size.circle - size.bolt)
+        x, n = 0.5 * length, t.n(outer, 16)
         neck, back = neck_of(self.dn)
         flanged = self.flanged and length > 2.6 * back + 0.03
         if flanged:
@@ -270,7 +270,7 @@ class Segment(_Ball, name="ball valve/segment", sizes=sizes_between(25)):
 class WaferBall(_Ball, name="ball valve/wafer", sizes=sizes_between(most=150)):
     """A compact wafer ball valve between two flanges: a round or lugged disc barely longer than its ball (DIN 3357)."""
 
-    long: float = between(1.5, 1.9, "length / radius of the pipe")
+    long: float = between(2.4, 2.8, "length / radius of the pipe")
     form: str = among(("round", "stepped", "lugged"), "form of its body")
     top: StemTop = nested(StemTop, "top of its stem")
     ball: BallInside = _inside()

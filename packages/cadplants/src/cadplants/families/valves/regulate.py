@@ -227,9 +227,9 @@ class SelfActing(Valve, name="pressure reducing valve/self-acting", sizes=sizes_
         can.bundled("actuator").add("actuator", pan, lid, middle, of="valve", own=True)
         can.add("bolt", bolt_circle(8, 0.94 * rim, 0.007, 0.13 * rim, 0.27 * rim))
         first = 0.88 * length - plate_thickness(t.dn) * 0.5
-        aside, deep = x + 1.2 * rim, -z - 0.7 * rim
+        aside, deep = max(x + 1.2 * rim, first + 0.4 * rim), -z - 0.7 * rim
         # Where the can is wider than the body the line passes it outside.
-        way = [(first, 0, deep)] if first - x > rim + 0.01 else [(aside, 0, -seat), (aside, 0, deep)]
+        way = [(first, 0, deep)] if first - x > rim + 0.01 else [(first, 0, -seat), (aside, 0, -seat), (aside, 0, deep)]
         line = [(first, 0.0, -0.9 * hub_radius(t.dn)), *way, (x, 0, deep), (x, 0, -z - 0.4 * rim)]
         t.add("pipe", rope(bend(line, 0.15 * rim), 0.005, 8), own=True)
         return t.model(length, kind=_REDUCING)

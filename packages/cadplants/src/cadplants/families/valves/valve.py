@@ -198,10 +198,11 @@ class BallCompact(Valve, name="ball valve/compact", sizes=tuple(dn for dn in SIZ
         lobe = around(ring(0.5 * size.bolt, 0.95 * size.bolt, 0.0, length, 12), 4, size.circle / 2, np.pi / 4)
         hole = circle(radius * 0.9, t.style.round(radius))
         block = extrude(rounded_rectangle(2 * half, 2 * half, 0.35 * half, 4), 0.0, length, (hole,))
-        boss = along("z", cylinder(0.4 * radius + 0.006, 0.9 * half, half + 0.01, 12), length / 2)
+        top = 0.5 * size.outer + 0.01
+        boss = along("z", cylinder(0.4 * radius + 0.006, 0.9 * half, top, 12), length / 2)
         t.add("valve body", along("x", block), along("x", lobe), boss)
-        put_spindle(t.at(length / 2), half + 0.01, half + 0.022, 0.006 + 0.1 * radius)
-        self.drive.build(t.at(length / 2, 0, half + 0.022))
+        put_spindle(t.at(length / 2), top, top + 0.012, 0.006 + 0.1 * radius)
+        self.drive.build(t.at(length / 2, 0, top + 0.012))
         return t.model(length, "wafer", "ball valve")
 
 
@@ -214,7 +215,7 @@ class PlugTapered(_Swollen, name="plug valve/tapered", sizes=MID):
     drive: Any = drive_of("lever", "gear", "pneumatic", "bar", when=lambda p: p.driven)
 
     def build(self, t: Table) -> Model:
-        length = FACE_TO_FACE["gate"][self.dn]
+        length = FACE_TO_FACE["ball"][self.dn]
         bulge, t = self.put_body(t, length), t.at(length / 2)
         n = t.style.round(bulge)
         chest, cover = (
@@ -388,7 +389,7 @@ class BallCheck(_Swollen, name="check valve/ball", sizes=MID):
 
     swell = 1.3
 
-    tilt: float = between(0.5, 0.9, "of its chamber", "rad")
+    tilt: float = between(0.4, 0.62, "of its chamber", "rad")
 
     def build(self, t: Table) -> Model:
         length = FACE_TO_FACE["check"][self.dn]
@@ -396,7 +397,10 @@ class BallCheck(_Swollen, name="check valve/ball", sizes=MID):
         n, arm, thread = t.style.round(bulge), 0.95 * bulge, 0.004 + 0.06 * bulge
         rim = arm + 2.2 * thread
         reach = max(2.4 * bulge, _clear(t, rim, self.tilt) - 0.2 * bulge)
-        t = t.at(0.55 * length, 0, 0.2 * bulge).spun("y", self.tilt)
+        # Its chamber passes the outlet's flange, too.
+        aside = (0.5 * t.flange.outer + 0.01 - 0.2 * bulge) * np.tan(self.tilt) + arm / np.cos(self.tilt)
+        x = min(0.55 * length, length - plate_thickness(self.dn) - float(aside))
+        t = t.at(x, 0, 0.2 * bulge).spun("y", self.tilt)
         t.add("valve body", turned(outline(arm, 0, arm, reach, rim, reach, rim, reach + 0.012), n))
         lid = outline(rim, reach + 0.012, rim, reach + 0.026, 0.6 * bulge, reach + 0.036)
         t.add("valve bonnet", turned(lid, n))
