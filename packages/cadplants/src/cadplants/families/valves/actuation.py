@@ -200,9 +200,9 @@ class _MotorBox(Params):
         t.bundled("actuator").add("actuator", *solids)
         put_indicator(t.at(0.3 * half, 0, tall + 0.15 * half), 0.4 * half, self.indicator)
         if self.wheeled:
-            side = t.at(-0.3 * half, -1.0 * deep, 0.35 * tall).spun("x", np.pi / 2)
+            side = t.at(-0.3 * half, -1.0 * deep, 0.55 * tall).spun("x", np.pi / 2)
             put_stem(side, 0.0, 0.45 * half, 0.08 * half)
-            self.wheel.build(side, 0.75 * half, 0.4 * half, "gear operator")
+            self.wheel.build(side, 0.6 * half, 0.4 * half, "gear operator")
 
 
 class _MultiTurn(Params):
@@ -237,7 +237,7 @@ class _MultiTurn(Params):
         t.add("position indicator", glass, of="dial")
         side = t.at(0, -0.6 * half, z).spun("x", np.pi / 2)
         put_stem(side, 0.0, 0.55 * half, 0.12 * half)
-        self.wheel.build(side, 0.9 * half, 0.5 * half, "gear operator")
+        self.wheel.build(side, 0.75 * half, 0.5 * half, "gear operator")
 
 
 class _Electrohydraulic(Params):

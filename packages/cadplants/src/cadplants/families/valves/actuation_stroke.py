@@ -107,17 +107,20 @@ class OutsideScrew(Params):
         """Puts it down: half the yoke's width, its height, the stem's radius [m]."""
         t = t.bundled(BODY)
         self.yoke.build(t, half, tall)
-        nut = [cylinder(2.2 * slim, tall - 0.01, tall + 1.5 * slim, 12), hexagon(3.6 * slim, tall, tall + slim)]
+        # A wheel turns over the nuts of pillars.
+        rise = max(1.2 * slim, 0.12 * half + 0.1 * self.radius) if self.yoke.form == "pillars" else 1.2 * slim
+        nut = [cylinder(2.2 * slim, tall - 0.01, tall + rise + 0.3 * slim, 12), hexagon(3.6 * slim, tall, tall + slim)]
         t.add("nut", *nut, of="trim", own=True, fine=False)
         if self.top != "wheel":
             put_stem(t, -0.01, tall + 2 * slim, slim, self.stem)
             (self.gear or self.motor).build(t.at(0, 0, tall + 0.5 * slim))
             return
         lift = self.lift * 0.8 * tall
-        put_stem(t, -0.01, tall + 3 * slim + lift + 0.02, slim, self.stem)
-        self.wheel.build(t, self.radius, tall + 1.2 * slim)
+        put_stem(t, -0.01, tall + rise + 1.8 * slim + lift + 0.02, slim, self.stem)
+        self.wheel.build(t, self.radius, tall + rise)
         if self.cover:
-            t.add("valve stem", cylinder(1.8 * slim, tall + 3 * slim + 0.01, tall + 5 * slim + lift + 0.04, 12))
+            low = tall + rise + 1.8 * slim
+            t.add("valve stem", cylinder(1.8 * slim, low + 0.01, low + 2 * slim + lift + 0.04, 12))
 
 
 class _Diaphragm(Params):

@@ -205,7 +205,7 @@ class FullyWelded(_Ball, name="ball valve/fully welded"):
         places = [x + s * 0.5 * radius for s in BOTH]
         seams = [about_x(ring(0.9 * big, big + 0.003, z - 0.004, z + 0.004, n)) for z in places]
         t.add("valve body", ended(self.dn, t.style, length, middle, "butt"), *seams)
-        reach = big + (self.reach if self.extended else 0.04 + 0.3 * radius)
+        reach = big + (self.reach if self.extended else 0.05 + 0.5 * radius)
         boss, t = 0.5 * radius + 0.008, t.at(x)
         rim, low = 1.9 * boss, reach - 0.012
         tube = outline(1.3 * boss, 0.85 * big, boss, big + 0.02, boss, low, rim, low, rim, reach)

@@ -110,8 +110,8 @@ class Sluice(Valve, name="sluice gate/wall", sizes=(100,), place="floor"):
             self.wheel.build(spindle, self.size, 0.28)
         else:
             # On a foot, so that the wheel on its side clears the frame's head.
-            spindle.at(0, 0, tall + 0.04).add("yoke", cylinder(0.09, 0.0, 0.04, 20))
-            self.operator.build(spindle.at(0, 0, tall + 0.08))
+            spindle.at(0, 0, tall + 0.04).add("yoke", cylinder(0.09, 0.0, 0.14, 20))
+            self.operator.build(spindle.at(0, 0, tall + 0.18))
         return t.model(kind="sluice gate")
 
 

@@ -201,8 +201,8 @@ class Balancing(_Threaded, name="globe valve/balancing"):
         length = 4.6 * t.pipe.radius + 0.035
         b = self.run.build(t, length, 1.25)
         n, way = t.n(b), t.at(0.5 * length).spun("y", 0.78)
-        way.add("valve bonnet", turned(outline(0.8 * b, 0.0, 0.75 * b, 2.2 * b, 0.6 * b, 2.3 * b), n))
-        knob = outline(1.1 * b, 2.3 * b, 1.2 * b, 2.4 * b, 1.2 * b, 3.6 * b, 1.0 * b, 3.8 * b)
+        way.add("valve bonnet", turned(outline(0.8 * b, 0.0, 0.75 * b, 2.8 * b, 0.6 * b, 2.9 * b), n))
+        knob = outline(1.1 * b, 2.9 * b, 1.2 * b, 3.0 * b, 1.2 * b, 4.0 * b, 1.0 * b, 4.2 * b)
         way.add("handwheel", turned(knob, max(10, n)), turns=Turning("handwheel"))
         for f in (0.3, 0.7):
             test = rod((0, 0.3 * b, 0.5 * b), (0, 1.6 * b, 1.2 * b), 0.16 * b, 8)

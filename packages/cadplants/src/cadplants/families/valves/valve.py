@@ -227,10 +227,10 @@ class PlugTapered(_Swollen, name="plug valve/tapered", sizes=MID):
         )
         t.add("valve body", chest)
         t.add("valve bonnet", cover)
-        t.add("valve stem", box((0.5 * bulge, 0.5 * bulge, 0.4 * bulge), (0, 0, 1.75 * bulge)))
+        t.add("valve stem", box((0.5 * bulge, 0.5 * bulge, 0.95 * bulge), (0, 0, 2.025 * bulge)))
         t.add("bolt", bolt_circle(6, 1.0 * bulge, 0.1 * bulge + 0.004, 1.2 * bulge, 1.45 * bulge))
         if self.driven:
-            self.drive.build(t.at(0, 0, 1.95 * bulge))
+            self.drive.build(t.at(0, 0, 2.5 * bulge))
         return t.model(length, kind="plug valve")
 
 
