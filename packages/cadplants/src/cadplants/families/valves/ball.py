@@ -369,7 +369,7 @@ class ClampedEnds(Params):
 def _clamp(dn: int, style: ModelingStyle) -> Solid:
     """A clamp of two hinged halves round a pair of ferrules, with its wing nut (ISO 2852)."""
     rim = 1.25 * PIPES[dn].radius + 0.008
-    side = outline(1.01, -0.004, 0.86, -0.009, 1.12, -0.009, 1.12, 0.009, 0.86, 0.009, 1.01, 0.004)
+    side = outline(0.995, -0.004, 0.86, -0.009, 1.12, -0.009, 1.12, 0.009, 0.86, 0.009, 0.995, 0.004)
     hoop = part_ring([(r * rim, x) for r, x in side], max(16, style.round(rim)))
     bolt = [
         rod((1.22 * rim, -0.3 * rim, 0), (1.22 * rim, 0.35 * rim + 0.02, 0), 0.004, 8),

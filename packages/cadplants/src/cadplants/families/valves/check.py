@@ -143,7 +143,7 @@ class DualPlate(_Check, name="check valve/dual plate", sizes=BIG):
             eye = t.at(0.5 * length, 0, edge + 0.012).along("y")
             eye.add("lifting lug", ring(0.008, 0.014, -0.004, 0.004, 12), of="fastener", own=True, fine=True)
         if self.hollow:
-            a = np.linspace(0.06, np.pi - 0.06, 10)
+            a = np.linspace(0.02, np.pi - 0.02, 10)
             half = extrude(0.96 * bore * np.column_stack([np.cos(a), np.sin(a)]), 0.0, 0.004 + 0.04 * r)
             for k in (0, 1):
                 wing = t.at(0.4 * length).along("x").spun("z", k * np.pi).spun("x", self.swing)

@@ -22,7 +22,7 @@ from cadplants.families.valves.threaded import hex_end
 from cadplants.families.valves.valve import Valve, disc_flange
 from cadplants.family import Model
 from cadplants.mesh_ops import Solid, moved
-from cadplants.primitives import AXES, ball, cylinder, hexagon, ring, turned
+from cadplants.primitives import AXES, along, ball, cylinder, hexagon, ring, turned
 from cadplants.standards import FACE_TO_FACE, sizes_between
 from cadplants.transforms import at, spun
 
@@ -187,6 +187,8 @@ class Heating(_Control, name="control valve/heating", sizes=sizes_between(15, 10
         put_stem(up, -0.01, tall, 0.004 + 0.03 * r)
         self.motor.build(up, r, tall)
         if self.shown:
+            arm = along("y", cylinder(0.004, -half - 0.001, 0.0, 8), 0, 0, 0.5 * tall)
+            up.add("bracket", arm, own=True)
             put_indicator(up.at(0, -half, 0.5 * tall).spun("x", np.pi / 2), 0.015, self.indicator)
         return self.done(t, length, self.ends)
 

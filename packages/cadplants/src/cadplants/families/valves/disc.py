@@ -93,11 +93,11 @@ class Triple(Valve, name="butterfly valve/triple offset", sizes=_LARGE):
         put_stem(top, 0.0, 0.05 + 0.2 * radius, 0.4 * slim)
         if self.hollow:
             self.disc.build(t.at(x), bore)
-            seat = ring(0.94 * bore, 0.999 * bore, x - 0.06 * bore, x + 0.06 * bore, n)
+            seat = ring(0.94 * bore, 1.002 * bore, x - 0.06 * bore, x + 0.06 * bore, n)
             t.add("valve body", about_x(seat), of="trim")
         if self.footed:
-            foot = (0.5 * length, 0.02, 0.35 * bottom)
-            t.add("valve body", *(box(foot, (length / 2, s * 0.6 * wall, -0.82 * bottom)) for s in BOTH))
+            foot, deep = (0.5 * length, 0.02, bottom - 0.7 * wall), -0.5 * (bottom + 0.7 * wall)
+            t.add("valve body", *(box(foot, (length / 2, s * 0.6 * wall, deep)) for s in BOTH))
         self.operator.build(t.at(x, 0, high + 0.012))
         return t.model(round(length, 6), kind="butterfly valve")
 

@@ -42,7 +42,7 @@ class Wheel(Params):
     def solid(self, radius: float, style: ModelingStyle) -> Solid:
         """The wheel of a radius, its hub on z = 0, before it is turned [m]."""
         hub, thick, sides = 0.13 * radius + 0.008, 0.012 + 0.06 * radius, max(12, style.round(radius))
-        r, spokes, *more = round(radius, 6), max(3, self.spokes), round(hub, 6), round(thick, 6), round(0.3 * hub, 6)
+        r, spokes, *more = round(radius, 6), max(3, self.spokes), round(hub, 6), round(thick, 6), round(0.12 * hub, 6)
         if self.make == "round rim":
             return handwheel(r, round(radius * self.rim + 0.002, 6), spokes, *more, sides)
         if self.make == "plate":
@@ -191,7 +191,9 @@ class _Pneumatic(Params):
         half = 0.028 + 0.45 * radius
         t = t.at(0, 0, 0.5 * half).spun("z", self.turn)
         plate = (1.6 * half, 0.005, 0.6 * half)
-        t.bundled(BODY).add("yoke", *(box(plate, (0, s * 0.5 * half, -0.25 * half)) for s in (-1, 1)), of="steel")
+        cheeks = [box(plate, (0, s * 0.5 * half, -0.25 * half)) for s in (-1, 1)]
+        foot = box((1.6 * half, 1.05 * half, 0.005), (0, 0, -0.5 * half + 0.0005))
+        t.bundled(BODY).add("yoke", *cheeks, foot, of="steel")
         t, top = t.bundled("actuator"), (2.0 if self.rack else 1.8) * half
         if self.rack:
             t.add("actuator", actuator_solids(round(radius, 6))[0], of="trim")

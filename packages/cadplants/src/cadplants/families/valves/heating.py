@@ -101,7 +101,7 @@ class Zone(Valve, name="control valve/zone", sizes=sizes_between(15, 32)):
         slot = box((0.004, 0.02, 0.006), (0.62 * w, 0, 0.3 * h)), box((0.3 * w, 0.006, 0.004), (0.5 * w, 0, 0.3 * h))
         up.add("lever", *slot)
         if self.cabled:
-            far, z = -0.5 * w - 0.05, 0.5 * h
+            far, z = (self.shift - 0.5) * w - 0.05, 0.5 * h
             cable = bend([(far + 0.06, 0, z), (far, 0, z), (far, 0, z + 0.25)], 0.03)
             up.add("cable", tube(cable, 0.004, 0.0, 8))
         up.add("valve stem", cylinder(0.005, -0.004, 0.004, 8))

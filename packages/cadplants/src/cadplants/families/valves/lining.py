@@ -241,7 +241,7 @@ class EnclosedPinch(Valve, name="pinch valve/enclosed", sizes=sizes_between(25))
             self.squeezer.build(up.at(0, 0, seat), half)
         if t.style.hollow:
             bore = t.pipe.bore
-            liner = part_ring(outline(0.86 * bore, 0, 0.985 * bore, 0, 0.985 * bore, length, 0.86 * bore, length), n)
+            liner = part_ring(outline(0.86 * bore, 0, 1.002 * bore, 0, 1.002 * bore, length, 0.86 * bore, length), n)
             t.add("valve body", about_x(liner), of="rubber")
         return t.model(round(length, 6), kind="pinch valve")
 

@@ -149,7 +149,7 @@ class Pedestal(Valve, name="gate valve/pedestal", sizes=BIG, weight=0.7):
             column = outline(1.4 * half, 0, 1.4 * half, 0.015, 0.7 * half, 0.015, 0.7 * half, tall)
         t.add("yoke", turned(column, t.style.round(half)))
         t.add("position indicator", box((0.006, 0.3 * half, 0.5 * tall), (0.72 * half, 0, 0.5 * tall)))
-        t.add("bolt", around(hexagon(0.026, 0.018, 0.034), 4, 1.2 * half, np.pi / 4))
+        t.add("bolt", around(hexagon(0.026, 0.013, 0.034), 4, 1.2 * half, np.pi / 4))
         if self.wheeled:
             put_stem(t, tall - 0.02, tall + 0.1, slim)
             self.wheel.build(t, 0.11 + 0.8 * self.radius, tall + 0.01)

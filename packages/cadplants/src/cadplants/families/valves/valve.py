@@ -295,7 +295,7 @@ class _Butterfly(Valve, sizes=BIG):
             outline(0.3 * bore, -0.1 * bore, rim, -0.004, rim, 0.004, 0.3 * bore, 0.1 * bore), t.style.round(outer)
         )
         t.spun("z", self.turn).add("valve disc", along("x", blade))
-        put_spindle(t, top, top + 0.02, 0.35 * neck + 0.003)
+        put_spindle(t, -1.01 * bore, top + 0.02, 0.35 * neck + 0.003)
         self.drive.build(t.at(0, 0, top + 0.02))
         return t.model(length, self.joint, "butterfly valve")
 
@@ -380,7 +380,7 @@ class WaferCheck(Valve, name="check valve/wafer", sizes=BIG, weight=1.5):
             plate = extrude(0.97 * bore * np.column_stack([np.cos(a), np.sin(a)]), 0.35 * length, 0.35 * length + 0.006)
             for turn in (0.0, np.pi):
                 t.add("valve disc", along("x", moved(plate, spun("z", turn))))
-            t.add("valve stem", along("y", cylinder(0.05 * bore + 0.002, -bore, bore, 8), 0.45 * length))
+            t.add("valve stem", along("y", cylinder(0.05 * bore + 0.002, -bore, bore, 8), 0.35 * length))
         return t.model(round(length, 6), "wafer", "check valve")
 
 
