@@ -27,6 +27,8 @@ class _Input(Params):
 
     def build(self, t: Table, size: float, reach: float) -> None:
         """Puts it down, of a radius, on a shaft of a length [m]."""
+        # A chain hangs clear of the body.
+        reach += size if self.make == "chainwheel" else 0.0
         put_stem(t, -0.01, reach + 0.02, 0.08 * size + 0.003)
         if self.make == "wheel":
             self.wheel.build(t, size, reach, "gear operator")

@@ -283,7 +283,9 @@ _QUARTER = ("lever", "lever", "lever", "wing", "gear", "chain", "pneumatic", "el
 
 
 def _fit(makes: tuple[str, ...], radius: float) -> list[str]:
-    """The makes that a pipe of a radius has in their place; small ones have no gears."""
+    """The makes that a pipe of a radius has in their place: small ones have no gears, large ones no levers."""
+    if radius > 0.12 and "gear" in makes:
+        return ["gear" if make in ("lever", "wing") else make for make in makes]
     unfit = ("gear", "chain") if radius < 0.02 else ("wing",) if radius > 0.05 else ()
     return ["lever" if make in unfit else make for make in makes]
 

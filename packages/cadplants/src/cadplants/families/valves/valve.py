@@ -227,10 +227,13 @@ class PlugTapered(_Swollen, name="plug valve/tapered", sizes=MID):
         )
         t.add("valve body", chest)
         t.add("valve bonnet", cover)
-        t.add("valve stem", box((0.5 * bulge, 0.5 * bulge, 0.95 * bulge), (0, 0, 2.025 * bulge)))
+        # A gear's wheel turns above the cover.
+        top = (2.5 if self.driven and self.drive.make == "gear" else 1.95) * bulge
+        square = 0.5 * bulge, 0.5 * bulge, top - 1.55 * bulge
+        t.add("valve stem", box(square, (0, 0, 0.5 * (top + 1.55 * bulge))))
         t.add("bolt", bolt_circle(6, 1.0 * bulge, 0.1 * bulge + 0.004, 1.2 * bulge, 1.45 * bulge))
         if self.driven:
-            self.drive.build(t.at(0, 0, 2.5 * bulge))
+            self.drive.build(t.at(0, 0, top))
         return t.model(length, kind="plug valve")
 
 
