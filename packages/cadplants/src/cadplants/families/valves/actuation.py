@@ -277,7 +277,7 @@ _ALL = ("lever", "lever", *list(OPERATORS)[:-1])
 
 def _fit(makes: tuple[str, ...], radius: float) -> list[str]:
     """The makes that a pipe of a radius has in their place: small ones have no gears, large ones no levers."""
-    if radius < 0.022:
+    if radius < 0.03:
         return ["lever" if make in _LARGE else make for make in makes]
     heavy = next((make for make in makes if make in _LARGE), "lever")
     return [heavy if radius > 0.12 and make == "lever" else make for make in makes]

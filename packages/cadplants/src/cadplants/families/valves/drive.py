@@ -150,8 +150,8 @@ class _Gear(Params):
         case = extrude(rounded_rectangle(2 * half, 1.7 * half, 0.35 * half, 4), 0.0, 0.8 * half)
         lid = cylinder(0.7 * half, 0.8 * half, 0.95 * half, t.style.round(half))
         t.add("gearbox", case, lid, along("y", cylinder(0.32 * half, -0.9 * half, 0.9 * half, 12), x, 0, z))
-        t.add("valve stem", along("-y", cylinder(0.14 * half, 0.0, 2.3 * half, 10), x, 0, z))
-        self._turned_by(t, (x, -2.2 * half, z), 0.05 + 0.9 * radius)
+        t.add("valve stem", along("-y", cylinder(0.14 * half, 0.0, 2.7 * half, 10), x, 0, z))
+        self._turned_by(t, (x, -2.6 * half, z), 0.05 + 0.9 * radius)
         if self.indicated:
             t.add("position indicator", cylinder(0.25 * half, 0.95 * half, 1.05 * half, 12))
 
