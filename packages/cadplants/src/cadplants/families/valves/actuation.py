@@ -200,9 +200,9 @@ class _MotorBox(Params):
         t.bundled("actuator").add("actuator", *solids)
         put_indicator(t.at(0.3 * half, 0, tall + 0.15 * half), 0.4 * half, self.indicator)
         if self.wheeled:
-            side = t.at(-0.3 * half, -1.0 * deep, 0.35 * tall).spun("x", np.pi / 2)
+            side = t.at(-0.3 * half, -1.0 * deep, 0.55 * tall).spun("x", np.pi / 2)
             put_stem(side, 0.0, 0.45 * half, 0.08 * half)
-            self.wheel.build(side, 0.75 * half, 0.4 * half)
+            self.wheel.build(side, 0.6 * half, 0.4 * half, "gear operator")
 
 
 class _MultiTurn(Params):
@@ -237,7 +237,7 @@ class _MultiTurn(Params):
         t.add("position indicator", glass, of="dial")
         side = t.at(0, -0.6 * half, z).spun("x", np.pi / 2)
         put_stem(side, 0.0, 0.55 * half, 0.12 * half)
-        self.wheel.build(side, 0.9 * half, 0.5 * half)
+        self.wheel.build(side, 0.75 * half, 0.5 * half, "gear operator")
 
 
 class _Electrohydraulic(Params):
@@ -276,8 +276,11 @@ _ALL = ("lever", "lever", *list(OPERATORS)[:-1])
 
 
 def _fit(makes: tuple[str, ...], radius: float) -> list[str]:
-    """The makes that a pipe of a radius has in their place."""
-    return ["lever" if radius < 0.022 and make in _LARGE else make for make in makes]
+    """The makes that a pipe of a radius has in their place: small ones have no gears, large ones no levers."""
+    if radius < 0.03:
+        return ["lever" if make in _LARGE else make for make in makes]
+    heavy = next((make for make in makes if make in _LARGE), "lever")
+    return [heavy if radius > 0.12 and make == "lever" else make for make in makes]
 
 
 class Operator(Scaled):

@@ -6,11 +6,13 @@ import numpy as np
 
 from cadplants.builder.params import Params, among, between, chance, nested, weighted, whole
 from cadplants.builder.table import Table, outline
-from cadplants.families.valves.actuation_base import INDICATORS, QUARTERS, put_indicator, put_stem
+from cadplants.families.valves.actuation_base import INDICATORS, put_indicator, put_stem
 from cadplants.families.valves.actuation_hand import Handwheel, cylinder_at, scaled, slab
-from cadplants.mesh_ops import Solid
+from cadplants.mesh_ops import Solid, moved
+from cadplants.plant import Turning
 from cadplants.polygon import rounded_rectangle
 from cadplants.primitives import along, around, box, cylinder, hexagon, ring, rod, rope, turned
+from cadplants.transforms import spun
 
 __all__ = ["Bevel", "Worm"]
 
@@ -25,26 +27,31 @@ class _Input(Params):
 
     def build(self, t: Table, size: float, reach: float) -> None:
         """Puts it down, of a radius, on a shaft of a length [m]."""
+        # A chain hangs clear of the body.
+        reach += size if self.make == "chainwheel" else 0.0
         put_stem(t, -0.01, reach + 0.02, 0.08 * size + 0.003)
         if self.make == "wheel":
             self.wheel.build(t, size, reach, "gear operator")
         elif self.make == "chainwheel":
-            t.add("handwheel", *self._chainwheel(t, size, reach))
+            t.add("handwheel", *self._chainwheel(t, size, reach), turns=Turning("gear operator"))
         elif self.make == "square":
             t.bundled("gearbox").add("valve stem", box((0.22 * size, 0.22 * size, 0.05), (0, 0, reach + 0.02)))
         else:
             arm = box((size, 0.12 * size, 0.06 * size), (0.45 * size, 0, 0.05 * size))
             grip = cylinder_at(0.07 * size, 0.02 * size, 0.6 * size, 0.88 * size)
-            t.at(0, 0, reach).add("lever", arm, cylinder(0.14 * size, 0.0, 0.16 * size, 12), grip)
+            eye = cylinder(0.14 * size, 0.0, 0.16 * size, 12)
+            t.at(0, 0, reach).add("lever", arm, eye, grip, turns=Turning("gear operator"))
 
     def _chainwheel(self, t: Table, size: float, reach: float) -> list[Solid]:
-        """The chainwheel, which stands upright beside the case: its chain hangs along the local -x."""
-        z, drop = reach + 0.015, self.drop
+        """The chainwheel: its chain hangs down where the wheel stands upright."""
+        z, drop, down = reach + 0.015, self.drop, t.frame[:3, :3].T @ (0.0, 0.0, -1.0)
         groove = ring(0.86 * size, 0.96 * size, reach, reach + 0.03, t.n(size, 16))
         teeth = around(box((0.12 * size, 0.012, 0.05), (0, 0, z)), 10, size)
         web = around(rod((0, 0, z), (0.9 * size, 0, z), 0.05 * size, 6), self.spokes)
         way = [(x, s * y * size, z) for s in (-1, 1) for x, y in outline(0, 1, -drop, 1, -drop - 0.08, 0.5)[::-s]]
-        return [groove, teeth, web, cylinder(0.15 * size, reach, reach + 0.04, 12), rope(way, 0.004, 6)]
+        hanging = moved(rope(way, 0.004, 6), spun("z", float(np.arctan2(-down[1], -down[0]))))
+        wheel = [groove, teeth, web, cylinder(0.15 * size, reach, reach + 0.04, 12)]
+        return [*wheel, hanging] if abs(down[2]) < 0.5 else wheel
 
 
 class Worm(Params):
@@ -55,12 +62,12 @@ class Worm(Params):
     half: float = between(0.85, 1.2, "half its width / what the pipe asks for")
     tall: float = between(0.7, 1.1, "height of its case / half its width")
     case: str = among(("round", "pear-shaped", "square"), "form of its case")
-    size: float = between(0.8, 1.3, "radius of what turns it / what the pipe asks for")
-    reach: float = between(0.3, 1.4, "length of its input shaft / half its width")
+    size: float = between(0.8, 1.1, "radius of what turns it / what the pipe asks for")
+    reach: float = between(0.9, 1.6, "length of its input shaft / half its width")
     input: _Input = nested(_Input, "what turns it")
     indicated: bool = chance(0.75, "shows the position")
     indicator: str = among(INDICATORS, "what shows the position", when=lambda p: p.indicated)
-    turn: float = among(QUARTERS, "which way it looks", "rad")
+    turn: float = among((0.0, np.pi), "which way it looks: its shaft lies across the run", "rad")
 
     def build(self, t: Table, radius: float) -> None:
         """Puts it down, for a pipe of a radius [m]."""
@@ -93,7 +100,7 @@ class Bevel(Params):
     covered: bool = chance(0.6, "a pipe covers the rising stem")
     cover: float = between(1, 4, "length of that pipe / half the case's width", when=lambda p: p.covered)
     input: _Input = nested(_Input, "what turns it")
-    turn: float = among(QUARTERS, "which way it looks", "rad")
+    turn: float = among((0.0, np.pi), "which way it looks: its shaft lies across the run", "rad")
 
     def build(self, t: Table, radius: float) -> None:
         """Puts it down, for a pipe of a radius [m]."""

@@ -144,14 +144,14 @@ class _Wire(_Wheel):
 class _Disc(_Wheel):
     """A solid disc with round, slotted or no holes and a thick edge."""
 
-    count: int = whole(3, 8, "holes")
     holes: str = among(("round", "slotted", "none"), "form of its holes")
+    count: int = whole(3, 8, "holes", when=lambda p: p.holes != "none")
     rim: str = among(_RIMS, _ABOUT_RIM)
     boss: _Hub = nested(_Hub, "hub")
 
     def solid(self, radius: float, style: ModelingStyle) -> Solid:
         n, thick, count = _sides(radius, style), 0.004 + 0.05 * radius, self.count
-        turns = np.arange(count) * 2 * np.pi / count + 0.1
+        turns = np.arange(count) * 2 * np.pi / max(1, count) + 0.1
         holes: tuple[Floats, ...] = ()
         if self.holes == "round":
             size = min(0.2, 0.9 / count) * radius

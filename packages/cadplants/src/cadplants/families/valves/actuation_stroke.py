@@ -36,7 +36,13 @@ class Yoke(Params):
     """A yoke: arched, straight or waisted arms, pillars, a window frame, a slotted tube."""
 
     form: str = among(_YOKES, "how it is made")
-    crown: float = between(0.45, 0.8, "radius of its top / of its foot")
+    crown: float = between(
+        0.45,
+        0.8,
+        "radius of its top / of its foot",
+        when=lambda p: p.form in ("arched", "waisted", "window frame"),
+        otherwise=1.0,
+    )
     wide: float = between(0.18, 0.35, "half an arm's width / radius of its foot", when=lambda p: p.form in _YOKES[:2])
     thick: float = between(0.1, 0.2, "half an arm's thickness / radius", when=lambda p: p.form in _YOKES[:2])
     waist: float = between(0.55, 0.8, "of a waisted one / radius of its foot", when=lambda p: p.form == "waisted")
@@ -58,7 +64,7 @@ class Yoke(Params):
             pillar = [cylinder(0.09 * half + 0.002, 0.0, tall + plate, 10)]
             pillar.append(hexagon(0.3 * half + 0.006, tall, tall + plate))
             solids = [around(one, self.count, 0.8 * half, np.pi / 2) for one in pillar]
-            solids += [cylinder(half, tall - 1.6 * plate, tall, n), foot]
+            solids += [top, foot]
         elif self.form == "window frame":
             edge = np.array([(-1, 0), (1, 0), (0.75, 1), (-0.75, 1)]) * (half, tall)
             window = np.array([(-0.7, 0.16), (0.7, 0.16), (0.5, 0.86), (-0.5, 0.86)]) * (half, tall)
@@ -80,42 +86,41 @@ class Yoke(Params):
         t.add("yoke", *solids)
 
 
-def _by_hand(p: Any) -> bool:
-    return bool(p.top == "wheel" or p.radius < 0.08)
-
-
 class OutsideScrew(Params):
     """An outside screw and yoke: yoke, rising stem, yoke nut, and a wheel, a gear or a motor on top."""
 
     radius: float = given(0.2, "of its handwheel", "m")
     yoke: Yoke = nested(Yoke, "yoke")
-    top: str = weighted("what turns it; small ones have a wheel", wheel=0.72, bevel=0.15, motor=0.13)
-    lift: float = between(0.0, 1.0, "how far it is open", when=_by_hand)
+    top: str = weighted(
+        "what turns it", when=lambda p: p.radius >= 0.08, otherwise="wheel", wheel=0.72, bevel=0.15, motor=0.13
+    )
+    lift: float = between(0.0, 1.0, "how far it is open", when=lambda p: p.top == "wheel")
     stem: str = among(STEMS, _ABOUT_STEM)
-    wheel: Handwheel = nested(Handwheel, "handwheel", when=_by_hand)
+    wheel: Handwheel = nested(Handwheel, "handwheel", when=lambda p: p.top == "wheel")
     cover: bool = chance(
-        0.3, "a pipe covers the rising stem", when=lambda p: _by_hand(p) and 0.8 * p.lift > 0.3, otherwise=False
+        0.3, "a pipe covers the rising stem", when=lambda p: p.top == "wheel" and 0.8 * p.lift > 0.3, otherwise=False
     )
-    gear: Any = operator("bevel", radius=lambda p: 0.6 * p.radius, when=lambda p: not _by_hand(p) and p.top == "bevel")
-    motor: Any = operator(
-        "multi-turn", radius=lambda p: 0.6 * p.radius, when=lambda p: not _by_hand(p) and p.top == "motor"
-    )
+    gear: Any = operator("bevel", radius=lambda p: 0.6 * p.radius, when=lambda p: p.top == "bevel")
+    motor: Any = operator("multi-turn", radius=lambda p: 0.6 * p.radius, when=lambda p: p.top == "motor")
 
     def build(self, t: Table, half: float, tall: float, slim: float) -> None:
         """Puts it down: half the yoke's width, its height, the stem's radius [m]."""
         t = t.bundled(BODY)
         self.yoke.build(t, half, tall)
-        nut = [cylinder(2.2 * slim, tall - 0.01, tall + 1.5 * slim, 12), hexagon(3.6 * slim, tall, tall + slim)]
+        # A wheel turns over the nuts of pillars.
+        rise = max(1.2 * slim, 0.12 * half + 0.1 * self.radius) if self.yoke.form == "pillars" else 1.2 * slim
+        nut = [cylinder(2.2 * slim, tall - 0.01, tall + rise + 0.3 * slim, 12), hexagon(3.6 * slim, tall, tall + slim)]
         t.add("nut", *nut, of="trim", own=True, fine=False)
-        if not _by_hand(self):
+        if self.top != "wheel":
             put_stem(t, -0.01, tall + 2 * slim, slim, self.stem)
             (self.gear or self.motor).build(t.at(0, 0, tall + 0.5 * slim))
             return
         lift = self.lift * 0.8 * tall
-        put_stem(t, -0.01, tall + 3 * slim + lift + 0.02, slim, self.stem)
-        self.wheel.build(t, self.radius, tall + 1.2 * slim)
+        put_stem(t, -0.01, tall + rise + 1.8 * slim + lift + 0.02, slim, self.stem)
+        self.wheel.build(t, self.radius, tall + rise)
         if self.cover:
-            t.add("valve stem", cylinder(1.8 * slim, tall + 3 * slim + 0.01, tall + 5 * slim + lift + 0.04, 12))
+            low = tall + rise + 1.8 * slim
+            t.add("valve stem", cylinder(1.8 * slim, low + 0.01, low + 2 * slim + lift + 0.04, 12))
 
 
 class _Diaphragm(Params):

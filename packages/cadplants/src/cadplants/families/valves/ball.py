@@ -205,7 +205,7 @@ class FullyWelded(_Ball, name="ball valve/fully welded"):
         places = [x + s * 0.5 * radius for s in BOTH]
         seams = [about_x(ring(0.9 * big, big + 0.003, z - 0.004, z + 0.004, n)) for z in places]
         t.add("valve body", ended(self.dn, t.style, length, middle, "butt"), *seams)
-        reach = big + (self.reach if self.extended else 0.04 + 0.3 * radius)
+        reach = big + (self.reach if self.extended else 0.05 + 0.5 * radius)
         boss, t = 0.5 * radius + 0.008, t.at(x)
         rim, low = 1.9 * boss, reach - 0.012
         tube = outline(1.3 * boss, 0.85 * big, boss, big + 0.02, boss, low, rim, low, rim, reach)
@@ -236,8 +236,8 @@ class Segment(_Ball, name="ball valve/segment", sizes=sizes_between(25)):
 
     def build(self, t: Table) -> Model:
         radius, size, bore = self.radius, t.flange, t.pipe.bore
-        length, outer = 0.095 + 0.75 * radius, 0.49 * (size.circle - size.bolt)
-        x, n = 0.45 * length, t.n(outer, 16)
+        length, outer = 0.08 + 1.7 * radius, 0.49 * (size.circle - size.bolt)
+        x, n = 0.5 * length, t.n(outer, 16)
         neck, back = neck_of(self.dn)
         flanged = self.flanged and length > 2.6 * back + 0.03
         if flanged:
@@ -270,7 +270,7 @@ class Segment(_Ball, name="ball valve/segment", sizes=sizes_between(25)):
 class WaferBall(_Ball, name="ball valve/wafer", sizes=sizes_between(most=150)):
     """A compact wafer ball valve between two flanges: a round or lugged disc barely longer than its ball (DIN 3357)."""
 
-    long: float = between(1.5, 1.9, "length / radius of the pipe")
+    long: float = between(2.4, 2.8, "length / radius of the pipe")
     form: str = among(("round", "stepped", "lugged"), "form of its body")
     top: StemTop = nested(StemTop, "top of its stem")
     ball: BallInside = _inside()
@@ -369,7 +369,7 @@ class ClampedEnds(Params):
 def _clamp(dn: int, style: ModelingStyle) -> Solid:
     """A clamp of two hinged halves round a pair of ferrules, with its wing nut (ISO 2852)."""
     rim = 1.25 * PIPES[dn].radius + 0.008
-    side = outline(1.01, -0.004, 0.86, -0.009, 1.12, -0.009, 1.12, 0.009, 0.86, 0.009, 1.01, 0.004)
+    side = outline(0.995, -0.004, 0.86, -0.009, 1.12, -0.009, 1.12, 0.009, 0.86, 0.009, 0.995, 0.004)
     hoop = part_ring([(r * rim, x) for r, x in side], max(16, style.round(rim)))
     bolt = [
         rod((1.22 * rim, -0.3 * rim, 0), (1.22 * rim, 0.35 * rim + 0.02, 0), 0.004, 8),

@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
-from cadplants.builder.table import Table
-from cadplants.family import Model, Part
-from cadplants.mesh_ops import about_x
+import numpy as np
 
-__all__ = ["HOLLOW", "lying", "standing"]
+from cadplants.builder.table import Table
+from cadplants.family import Model, placed
+
+__all__ = ["HOLLOW", "LAID", "lying", "standing"]
 
 HOLLOW = "whether insides are modelled"
+LAID = np.eye(4)[[2, 0, 1, 3]]
+"""A pose that lays what stands on z = 0 along x, what pointed to y up, as ``about_x`` does."""
 
 
 def lying(t: Table, kind: str) -> Model:
     """What was put down upon z = 0 laid along x, as a device with one flange is."""
-    return Model([Part(about_x(p.solid), p.name, p.color, p.bundle, p.group, p.fine) for p in t.parts], kind=kind)
+    return Model(placed(t.parts, LAID), kind=kind)
 
 
 def standing(t: Table, kind: str) -> Model:

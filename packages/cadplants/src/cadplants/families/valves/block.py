@@ -18,6 +18,7 @@ from cadplants.families.valves.valve import Valve, disc_flange, flanged_body
 from cadplants.family import Model
 from cadplants.flange import plate_thickness
 from cadplants.mesh_ops import Solid, extrude, moved
+from cadplants.plant import Turning
 from cadplants.polygon import rounded_rectangle
 from cadplants.primitives import BOTH, along, around, ball, box, cylinder, hexagon, ring, rod, rope, turned
 from cadplants.standards import FACE_TO_FACE, PIPES, sizes_between
@@ -106,7 +107,7 @@ class FlangedBalancing(Valve, name="globe valve/balancing flanged", sizes=sizes_
         top = seat + plate + tall
         knob = outline(0.8 * g, top - 0.002, g, top + 0.1 * g, g, top + 0.8 * g, 0.7 * g, top + g)
         rib = box((0.12 * g, 0.16 * g, 0.6 * g), (0, 0, top + 0.45 * g))
-        head.add("handwheel", turned(knob, t.n(g, 10)), around(rib, self.ribs, g))
+        head.add("handwheel", turned(knob, t.n(g, 10)), around(rib, self.ribs, g), turns=Turning("handwheel"))
         head.add("position indicator", box((0.5 * g, 0.3 * g, 0.05 * g), (0, 0.3 * g, top + 1.0 * g)), of="dial")
         for x in (plate_thickness(t.dn) + 0.07 * length, length - plate_thickness(t.dn) - 0.07 * length):
             test = t.at(x).spun("x", -self.lean)
@@ -191,7 +192,8 @@ class QuickOpening(Valve, name="gate valve/quick opening", sizes=sizes_between(1
         long = self.long * w + 0.1
         grip = along("x", cylinder(1.6 * bar, long - 0.25 * long, long, 10))
         lever = t.at(far, 0, high - bar).spun("z", 0.0 if side > 0 else np.pi).spun("y", -self.tilt)
-        lever.add("lever", box((long, 1.6 * bar, 3.0 * bar), (long / 2 - 3 * bar, 0, 0)), grip)
+        shank = box((long, 1.6 * bar, 3.0 * bar), (long / 2 - 3 * bar, 0, 0))
+        lever.add("lever", shank, grip, turns=Turning("lever", (0.0, -1.0, 0.0)))
         return t.model(length, kind="gate valve")
 
 

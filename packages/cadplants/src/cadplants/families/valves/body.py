@@ -249,7 +249,7 @@ class Blade(Params):
         else:
             solids = [along("x", turned(outline(0.97 * rim, -thin, rim, 0, 0.97 * rim, thin), n))]
             solids.append(along("x", dome(0.7 * radius, 0.18 * radius, 0.02 * radius, n)))
-        return merge([*solids, cylinder(0.1 * radius + 0.002, -0.9 * radius, 0.9 * radius, 12)])
+        return merge([*solids, cylinder(0.1 * radius + 0.002, -1.02 * radius, 1.02 * radius, 12)])
 
 
 class TurnedBlade(Params):

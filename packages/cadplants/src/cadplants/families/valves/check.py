@@ -55,7 +55,8 @@ class WeightedLever(_Check, name="check valve/weighted lever", sizes=BIG, weight
         t.add("valve body", run, moved(cylinder(throat, 0.3 * bulge, seat - 0.004, n), at(x)))
         lid = cover(1.2 * throat + 0.006, seat, 0.01 + 0.08 * r, 8, t.style, self.square, self.hood * r)
         t.at(x).extend(lid)
-        px, pz, reach = x - 0.45 * throat, 0.72 * seat, 1.25 * throat + 0.02
+        px, pz = x - 0.45 * throat, 0.72 * seat
+        reach = max(1.25 * throat + 0.02, 0.5 * t.flange.outer + 0.2 * r)
         out = t.at(px, 0, pz).along("y" if side > 0 else "-y")
         out.add("valve body", cylinder(0.2 * throat + 0.006, 0.5 * throat, reach, 12))
         pin = rod((px, side * 0.4 * throat, pz), (px, side * (reach + 0.035 + 0.1 * r), pz), 0.005 + 0.09 * r, 10)
@@ -142,7 +143,7 @@ class DualPlate(_Check, name="check valve/dual plate", sizes=BIG):
             eye = t.at(0.5 * length, 0, edge + 0.012).along("y")
             eye.add("lifting lug", ring(0.008, 0.014, -0.004, 0.004, 12), of="fastener", own=True, fine=True)
         if self.hollow:
-            a = np.linspace(0.06, np.pi - 0.06, 10)
+            a = np.linspace(0.02, np.pi - 0.02, 10)
             half = extrude(0.96 * bore * np.column_stack([np.cos(a), np.sin(a)]), 0.0, 0.004 + 0.04 * r)
             for k in (0, 1):
                 wing = t.at(0.4 * length).along("x").spun("z", k * np.pi).spun("x", self.swing)
@@ -343,7 +344,7 @@ class BallCheck(_Check, name="check valve/ball threaded", sizes=SMALL):
 
     long: float = between(4.4, 5.4, "length / radius of the pipe")
     # Flow pushes the ball off its seat into the branch, which leans downstream therefore.
-    lean: float = between(-0.9, -0.55, "of the branch from upright, upstream", "rad")
+    lean: float = between(-0.75, -0.5, "of the branch from upright, upstream", "rad")
     bolted: bool = chance(0.6, "its cap is bolted, not screwed")
     square: bool = among((False, True), "the bolted cap is square", when=lambda p: p.bolted, otherwise=False)
 
@@ -351,13 +352,16 @@ class BallCheck(_Check, name="check valve/ball threaded", sizes=SMALL):
         r, length = t.pipe.radius, self.long * t.pipe.radius + 0.035
         marks = ((1.05 * r, 0.15), (1.35 * r, 0.35), (1.35 * r, 0.65), (1.05 * r, 0.85))
         run = threaded_run(t, length, *marks)
-        wide, reach, n = 1.5 * r + 0.003, 2.7 * r + 0.008, t.n(1.5 * r)
-        pose = at(0.4 * length) @ spun("y", -self.lean)
+        wide, plate, n, lean = 1.5 * r + 0.003, 0.007 + 0.05 * r, t.n(1.5 * r), -self.lean
+        rim = 1.25 * wide + 0.006
+        # Its cap passes the pipe.
+        reach = max(2.7 * r + 0.008, plate + float((1.3 * r + 0.004 + rim * np.sin(lean)) / np.cos(lean)))
+        pose = at(0.4 * length) @ spun("y", lean)
         arm = turned(outline(0.9 * wide, 0.0, wide, 0.4 * reach, wide, reach - 0.003), n)
         t.add("valve body", run, moved(arm, pose))
         branch = t.moved(pose)
         if self.bolted:
-            branch.extend(cover(1.25 * wide + 0.006, reach, 0.007 + 0.05 * r, 4, t.style, self.square, 0.3 * r))
+            branch.extend(cover(rim, reach, plate, 4, t.style, self.square, 0.3 * r))
         else:
             cap = cylinder(1.12 * wide, reach - 0.01, reach + 0.3 * r, n)
             branch.add("valve bonnet", cap, hexagon(wide, reach, reach + 0.7 * r))

@@ -15,6 +15,7 @@ from cadplants.families.valves.threaded import hex_end
 from cadplants.families.valves.valve import Valve, flanged_body
 from cadplants.family import Model
 from cadplants.mesh_ops import extrude, moved, tube
+from cadplants.plant import Turning
 from cadplants.polygon import circle, rounded_rectangle
 from cadplants.primitives import along, around, ball, box, cylinder, hexagon, ring, rod, rope, turned
 from cadplants.standards import FACE_TO_FACE
@@ -47,13 +48,16 @@ class AngleSeat(Valve, name="angle seat valve/piston", sizes=SMALL):
             side = [(r, 0.0), *core, (r, length)]
             run = along("x", turned(side, style.round(1.3 * r), bore=bore_of(self.dn, style)))
         pose = at(0.5 * length) @ spun("y", self.tilt)
-        n, wide, low = style.round(1.6 * r), 1.15 * r + 0.002, 2.4 * r
-        t.add("valve body", run, moved(turned(outline(wide, 0, wide, 2.2 * r, 0.85 * wide, low), n), pose))
+        n, wide, tall = style.round(1.6 * r), 1.15 * r + 0.002, 0.4 * r if self.nutted else 1.4 * r
+        rim, high, tilt = self.rim * r + 0.012, self.high * r + 0.03, abs(self.tilt)
+        # The actuator's lower edge clears the run.
+        clear = (1.3 * r + 0.005) / np.cos(tilt) + rim * np.tan(tilt) - 0.12 * high
+        low = max(2.4 * r, clear - 0.8 * tall)
+        t.add("valve body", run, moved(turned(outline(wide, 0, wide, low - 0.2 * r, 0.85 * wide, low), n), pose))
         t = t.moved(pose)
-        tall = 0.4 * r if self.nutted else 1.4 * r
         nut = hexagon(2.1 * wide, low - 0.5 * r, low + 0.3 * r)
         t.add("valve bonnet", nut if self.nutted else cylinder(0.6 * wide, low - 0.001, low + 1.4 * r, n))
-        base, rim, high = low + 0.8 * tall, self.rim * r + 0.012, self.high * r + 0.03
+        base = low + 0.8 * tall
         can = outline(0.7, 0, 1, 0.12, 1, 0.5, 1.04, 0.5, 1.04, 0.58, 1, 0.58, 0.95, 0.9, 0.55, 1)
         solids = [turned([(s * rim, base + z * high) for s, z in can], style.round(rim))]
         port = cylinder(0.008, 0.8 * rim, 1.05 * rim + 0.004, 10), hexagon(0.014, rim, rim + 0.012)
@@ -131,7 +135,7 @@ class Mini(Valve, name="ball valve/mini", sizes=tuple(dn for dn in SMALL if dn <
         else:
             grip = [cylinder(1.3 * k, 0, 0.5 * k, 12), box((0.3 * k, 2.2 * k, 0.7 * k), (0, 0, 0.5 * k))]
         t.add("valve stem", cylinder(0.5 * neck, -0.003, 0.4 * k, 8))
-        t.add("lever", *grip)
+        t.add("lever", *grip, turns=Turning("lever"))
         return whole_table.model(round(length, 6), "welded", "ball valve")
 
 
@@ -157,12 +161,12 @@ class GasCock(Valve, name="plug valve/gas cock", sizes=SMALL):
         if self.key == "wings":
             right = outline(0.35, 0, 0.45, 0.3, self.reach, 0.55, self.reach, 1.2, 0.3, 0.95)
             edge = np.array([(-0.35, 0), *right, *((-x, z) for x, z in right[:0:-1])]) * w
-            t.add("lever", moved(extrude(edge, -0.13 * w, 0.13 * w), spun("x", np.pi / 2)))
+            t.add("lever", moved(extrude(edge, -0.13 * w, 0.13 * w), spun("x", np.pi / 2)), turns=Turning("lever"))
         elif self.key == "square":
             t.add("valve stem", box((0.7 * w, 0.7 * w, 0.9 * w), (0, 0, 0.44 * w)))
         else:
             bar = rod((-0.5 * w, 0, 0.35 * w), (4.5 * w, 0, 0.6 * w), 0.22 * w, 8)
-            t.add("lever", bar, cylinder(0.6 * w, -0.002, 0.7 * w, 12))
+            t.add("lever", bar, cylinder(0.6 * w, -0.002, 0.7 * w, 12), turns=Turning("lever"))
         return whole_table.model(round(length, 6), "welded", "plug valve")
 
 
@@ -202,7 +206,7 @@ class StopCock(Valve, name="globe valve/stop cock", sizes=SMALL):
             a = np.linspace(0, 2 * np.pi, 24, endpoint=False)
             edge = (reach * (0.85 + 0.15 * np.cos(3 * a)))[:, None] * np.column_stack([np.cos(a), np.sin(a)])
             grip = [extrude(edge, z - 0.2 * w, z + 0.4 * w), cylinder(0.4 * w, z - 0.5 * w, z - 0.15 * w, 12)]
-        t.spun("z", self.turn).add("handwheel", *grip)
+        t.spun("z", self.turn).add("handwheel", *grip, turns=Turning("handwheel"))
         return whole_table.model(round(length, 6), "welded", "globe valve")
 
 

@@ -22,7 +22,7 @@ from cadplants.families.valves.threaded import hex_end
 from cadplants.families.valves.valve import Valve, disc_flange
 from cadplants.family import Model
 from cadplants.mesh_ops import Solid, moved
-from cadplants.primitives import AXES, along, ball, cylinder, dome, hexagon, ring, turned
+from cadplants.primitives import AXES, along, ball, cylinder, hexagon, ring, turned
 from cadplants.standards import FACE_TO_FACE, sizes_between
 from cadplants.transforms import at, spun
 
@@ -122,45 +122,16 @@ class Angle(Valve, name="control valve/angle", place="head", sizes=sizes_between
         return lying(t, "control valve")
 
 
-class _ShortPiston(Params):
-    """A short piston actuator with its air ports and a clear sight dome."""
-
-    half: float = between(0.8, 1.3, "radius of the can / of the pipe")
-    long: float = between(1.4, 2.2, "length of the can / radius of the pipe")
-    shape: str = among(("plain", "stepped", "ringed"), "shape of the can")
-
-    def build(self, t: Table, low: float, slim: float) -> None:
-        """Puts it down on z = 0, its stem of a radius from a height up [m]."""
-        half, long, t = 0.02 + self.half * t.pipe.radius, 0.04 + self.long * t.pipe.radius, t.bundled("actuator")
-        n = t.n(1.5 * t.pipe.radius, 16)
-        if self.shape == "stepped":
-            marks = ((0.6, 0), (0.6, 0.1), (1, 0.12), (1, 0.3), (0.93, 0.32), (0.93, 1), (0.4, 1.08))
-            can = [turned([(a * half, z * long) for a, z in marks], n)]
-        else:
-            end = outline(0.92 * half, long + 0.12 * half, 0.4 * half, long + 0.3 * half)
-            can = [turned([*outline(0.45 * half, 0, half, 0.15 * half, half, long), *end], n)]
-        if self.shape == "ringed":
-            can.append(ring(0.95 * half, 1.06 * half, 0.45 * long, 0.6 * long, n))
-        port = hexagon(0.018, 0.85 * half, 1.15 * half + 0.008)
-        can += [along("x", port, 0, 0, f * long) for f in (0.3, 0.7)]
-        t.add("actuator", *can, of="clamp", own=True)
-        put_stem(t, low, 0.02, slim)
-        top, r = long + 0.45 * half, 0.2 * half
-        t.add("position indicator", cylinder(r, long, top, 12), dome(r, r, top, 12), of="dial", own=True)
-
-
-class AngleSeat(_Control, name="angle seat valve/piston", sizes=sizes_between(15, 65), weight=1.5):
-    """An angle-seat valve: an oblique bonnet that carries a short piston actuator with a clear dome, or a wheel."""
+class AngleSeat(_Control, name="angle seat valve/handwheel", sizes=sizes_between(15, 65)):
+    """An angle-seat valve that is turned by hand: an oblique bonnet that carries a wheel."""
 
     ends: str = among(("hex", "octagon", "butt", "flanged"), _ENDS)
     long: float = between(0.95, 1.15, "length / what is usual")
     tilt: float = between(0.55, 0.85, "of the bonnet", "rad")
     way: float = among((1.0, 1.0, -1.0), "which way the bonnet leans: 1 downstream, -1 upstream")
     nut: bool = chance(0.6, "the bonnet is held by a nut")
-    powered: bool = chance(0.7, "a piston rather than a wheel")
-    piston: _ShortPiston = nested(_ShortPiston, "piston actuator", when=lambda p: p.powered)
-    stem: str = among(STEMS, "how the stem is made", when=lambda p: not p.powered, otherwise="plain")
-    wheel: Handwheel = nested(wheels("spoked", "lobed", "disc", "star"), "handwheel", when=lambda p: not p.powered)
+    stem: str = among(STEMS, "how the stem is made")
+    wheel: Handwheel = nested(wheels("spoked", "lobed", "disc", "star"), "handwheel")
 
     def build(self, t: Table) -> Model:
         r, flanged, tilt = t.pipe.radius, self.ends == "flanged", self.tilt * self.way
@@ -180,11 +151,8 @@ class AngleSeat(_Control, name="angle seat valve/piston", sizes=sizes_between(15
             nut = hexagon(2.3 * throat, low, low + 0.45 * r)
         z = top + 0.5 * r
         up.add("valve bonnet", nut, turned(outline(0.7 * throat, top - 0.012, 0.5 * throat, z), n))
-        if self.powered:
-            self.piston.build(up.at(0, 0, z), reach - z, slim)
-        else:
-            put_stem(up, reach, z + 0.05 + 0.5 * r, slim, self.stem)
-            self.wheel.build(up, 0.025 + 1.2 * r, z + 0.01 + 0.3 * r)
+        put_stem(up, reach, z + 0.05 + 0.5 * r, slim, self.stem)
+        self.wheel.build(up, 0.025 + 1.2 * r, z + 0.01 + 0.3 * r)
         if t.style.hollow:
             up.add("valve disc", globe_plug(0.85 * t.pipe.bore, 0, t.style, 0.2 * r))
         return self.done(t, length, self.ends, "globe valve")
@@ -219,6 +187,8 @@ class Heating(_Control, name="control valve/heating", sizes=sizes_between(15, 10
         put_stem(up, -0.01, tall, 0.004 + 0.03 * r)
         self.motor.build(up, r, tall)
         if self.shown:
+            arm = along("y", cylinder(0.004, -half - 0.001, 0.0, 8), 0, 0, 0.5 * tall)
+            up.add("bracket", arm, own=True)
             put_indicator(up.at(0, -half, 0.5 * tall).spun("x", np.pi / 2), 0.015, self.indicator)
         return self.done(t, length, self.ends)
 

@@ -93,11 +93,11 @@ class Triple(Valve, name="butterfly valve/triple offset", sizes=_LARGE):
         put_stem(top, 0.0, 0.05 + 0.2 * radius, 0.4 * slim)
         if self.hollow:
             self.disc.build(t.at(x), bore)
-            seat = ring(0.94 * bore, 0.999 * bore, x - 0.06 * bore, x + 0.06 * bore, n)
+            seat = ring(0.94 * bore, 1.002 * bore, x - 0.06 * bore, x + 0.06 * bore, n)
             t.add("valve body", about_x(seat), of="trim")
         if self.footed:
-            foot = (0.5 * length, 0.02, 0.35 * bottom)
-            t.add("valve body", *(box(foot, (length / 2, s * 0.6 * wall, -0.82 * bottom)) for s in BOTH))
+            foot, deep = (0.5 * length, 0.02, bottom - 0.7 * wall), -0.5 * (bottom + 0.7 * wall)
+            t.add("valve body", *(box(foot, (length / 2, s * 0.6 * wall, deep)) for s in BOTH))
         self.operator.build(t.at(x, 0, high + 0.012))
         return t.model(round(length, 6), kind="butterfly valve")
 
@@ -252,17 +252,18 @@ class Plastic(Valve, name="butterfly valve/plastic", sizes=BIG):
         tower += [box(web, (0, s * 1.5 * slim, (high + 0.98 * outer) / 2)) for s in BOTH]
         tower.append(box((2.2 * slim, 3.6 * slim, 0.01), (0, 0, high - 0.005)))
         t.add("valve body", *solids, *(moved(one, at(x)) for one in tower))
-        a, reach, t = np.linspace(-0.2, 1.8, 21), 0.04 + 0.9 * radius, t.at(x)
-        r = reach * np.where(np.arange(21) % 2, 1.0, 0.93)
-        back = np.array([(-1.6, 0.8), (-1.6, -1.2)]) * slim
-        ratchet = np.vstack([np.column_stack([r * np.cos(a), r * np.sin(a)]), back])
-        t.add("position indicator", slab(ratchet, high, high + 0.006))
+        t = t.at(x)
         self.disc.build(t, bore)
         put_stem(t, high - 0.01, high + 0.02, 0.4 * slim)
         if self.levered:
+            a, reach = np.linspace(-0.2, 1.8, 21), 0.04 + 0.9 * radius
+            r = reach * np.where(np.arange(21) % 2, 1.0, 0.93)
+            back = np.array([(-1.6, 0.8), (-1.6, -1.2)]) * slim
+            ratchet = np.vstack([np.column_stack([r * np.cos(a), r * np.sin(a)]), back])
+            t.add("position indicator", slab(ratchet, high, high + 0.006))
             self.lever.build(t, 0.12 + 1.6 * radius, high + 0.01)
         else:
-            self.operator.build(t.at(0, 0, high + 0.006))
+            self.operator.build(t.at(0, 0, high))
         return t.model(length, "wafer", "butterfly valve")
 
 
@@ -290,18 +291,19 @@ class Damper(Valve, name="butterfly valve/duct damper", sizes=sizes_between(80))
         t.add("valve body", *solids)
         t = t.at(x)
         self.disc.build(t, bore)
-        a = np.linspace(-0.3, 2.0, 14)
-        arc = np.column_stack([np.cos(a), np.sin(a)]) * reach
-        plate = np.vstack([arc, np.array([(-0.6, 0.3), (-0.4, -0.4), (0.6, -0.5)]) * reach])
-        slot = np.vstack([0.85 * arc[2:-2], 0.72 * arc[-3:1:-1]])
-        t.add("position indicator", slab(plate, high, high + 0.003, (slot,)))
         put_stem(t, -radius - 0.03, high + 0.02, slim)
         if self.levered:
+            a = np.linspace(-0.3, 2.0, 14)
+            arc = np.column_stack([np.cos(a), np.sin(a)]) * reach
+            plate = np.vstack([arc, np.array([(-0.6, 0.3), (-0.4, -0.4), (0.6, -0.5)]) * reach])
+            slot = np.vstack([0.85 * arc[2:-2], 0.72 * arc[-3:1:-1]])
+            t.add("position indicator", slab(plate, high, high + 0.003, (slot,)))
             self.lever.build(t, 1.5 * reach + 0.03, high + 0.006)
             nut = cylinder(0.004, high - 0.004, high + 0.02, 8)
             t.at(0.78 * reach).add("bolt", nut, box((0.025, 0.004, 0.012), (0, 0, high + 0.02)))
         else:
-            self.operator.build(t.at(0, 0, high + 0.006))
+            t.add("yoke", cylinder(0.5 * reach, high - 0.002, high + 0.003, n), of="steel")
+            self.operator.build(t.at(0, 0, high + 0.003))
         return t.model(round(length, 6), "welded", "butterfly valve")
 
 

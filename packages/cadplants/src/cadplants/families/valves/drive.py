@@ -42,7 +42,7 @@ class Wheel(Params):
     def solid(self, radius: float, style: ModelingStyle) -> Solid:
         """The wheel of a radius, its hub on z = 0, before it is turned [m]."""
         hub, thick, sides = 0.13 * radius + 0.008, 0.012 + 0.06 * radius, max(12, style.round(radius))
-        r, spokes, *more = round(radius, 6), max(3, self.spokes), round(hub, 6), round(thick, 6), round(0.3 * hub, 6)
+        r, spokes, *more = round(radius, 6), max(3, self.spokes), round(hub, 6), round(thick, 6), round(0.12 * hub, 6)
         if self.make == "round rim":
             return handwheel(r, round(radius * self.rim + 0.002, 6), spokes, *more, sides)
         if self.make == "plate":
@@ -59,7 +59,7 @@ class Wheel(Params):
     def build(self, t: Table, radius: float, z: float = 0.0, turns: str = "handwheel") -> None:
         """Puts it down with its hub on a height [m]; ``turns``: what it is turned as."""
         solid = moved(self.solid(radius, t.style), spun("z", self.turn))
-        t.at(0, 0, z).add("handwheel", solid, turns=Turning(turns) if turns else None)
+        t.at(0, 0, z).add("handwheel", solid, turns=Turning(turns))
 
 
 def _strip(path: list[tuple[float, float]], half: float, thick: float) -> Solid:
@@ -150,8 +150,8 @@ class _Gear(Params):
         case = extrude(rounded_rectangle(2 * half, 1.7 * half, 0.35 * half, 4), 0.0, 0.8 * half)
         lid = cylinder(0.7 * half, 0.8 * half, 0.95 * half, t.style.round(half))
         t.add("gearbox", case, lid, along("y", cylinder(0.32 * half, -0.9 * half, 0.9 * half, 12), x, 0, z))
-        t.add("valve stem", along("-y", cylinder(0.14 * half, 0.0, 2.0 * half, 10), x, 0, z))
-        self._turned_by(t, (x, -1.9 * half, z), 0.05 + 0.9 * radius)
+        t.add("valve stem", along("-y", cylinder(0.14 * half, 0.0, 2.7 * half, 10), x, 0, z))
+        self._turned_by(t, (x, -2.6 * half, z), 0.05 + 0.9 * radius)
         if self.indicated:
             t.add("position indicator", cylinder(0.25 * half, 0.95 * half, 1.05 * half, 12))
 
@@ -191,7 +191,9 @@ class _Pneumatic(Params):
         half = 0.028 + 0.45 * radius
         t = t.at(0, 0, 0.5 * half).spun("z", self.turn)
         plate = (1.6 * half, 0.005, 0.6 * half)
-        t.bundled(BODY).add("yoke", *(box(plate, (0, s * 0.5 * half, -0.25 * half)) for s in (-1, 1)), of="steel")
+        cheeks = [box(plate, (0, s * 0.5 * half, -0.25 * half)) for s in (-1, 1)]
+        foot = box((1.6 * half, 1.05 * half, 0.005), (0, 0, -0.5 * half + 0.0005))
+        t.bundled(BODY).add("yoke", *cheeks, foot, of="steel")
         t, top = t.bundled("actuator"), (2.0 if self.rack else 1.8) * half
         if self.rack:
             t.add("actuator", actuator_solids(round(radius, 6))[0], of="trim")
@@ -228,9 +230,11 @@ class _Electric(Params):
         foot = cylinder(0.5 * half, 0.0, 0.5 * half, n)
         t.add("actuator", foot, case, lid, along("x", can, 1.3 * half, 0, 1.2 * half), gland)
         if self.wheeled:
-            size, rim, hub = round(0.7 * half, 6), round(0.07 * half, 6), round(0.15 * half, 6)
-            wheel_ = along("y", handwheel(size, rim, 3, hub, hub, 0.003, max(12, n)), 0, 0.95 * half, 1.2 * half)
-            t.add("handwheel", wheel_, along("y", cylinder(0.1 * half, 0.85 * half, 1.05 * half, 8), 0, 0, 1.2 * half))
+            size, rim, eye = round(0.7 * half, 6), round(0.07 * half, 6), round(0.15 * half, 6)
+            wheel_ = along("y", handwheel(size, rim, 3, eye, eye, 0.003, max(12, n)), 0, 0.95 * half, 1.2 * half)
+            hub = along("y", cylinder(0.1 * half, 0.85 * half, 1.05 * half, 8), 0, 0, 1.2 * half)
+            turning = Turning("gear operator", (0.0, 1.0, 0.0), (0.0, 0.0, 1.2 * half))
+            t.add("handwheel", wheel_, hub, turns=turning)
 
 
 class DiaphragmHead(Params):
@@ -279,7 +283,9 @@ _QUARTER = ("lever", "lever", "lever", "wing", "gear", "chain", "pneumatic", "el
 
 
 def _fit(makes: tuple[str, ...], radius: float) -> list[str]:
-    """The makes that a pipe of a radius has in their place; small ones have no gears."""
+    """The makes that a pipe of a radius has in their place: small ones have no gears, large ones no levers."""
+    if radius > 0.12 and "gear" in makes:
+        return ["gear" if make in ("lever", "wing") else make for make in makes]
     unfit = ("gear", "chain") if radius < 0.02 else ("wing",) if radius > 0.05 else ()
     return ["lever" if make in unfit else make for make in makes]
 

@@ -110,14 +110,14 @@ class CastWedge(Gate, name="gate valve/cast wedge", weight=1.5):
 class PressureSeal(Gate, name="gate valve/pressure seal", sizes=BIG):
     """A high-pressure gate valve with a pressure-seal bonnet: a thick round bottle, welded ends, a yoke clamped on."""
 
-    long: float = between(1.2, 1.5, "length / of other gate valves")
+    long: float = between(1.2, 1.5, "length / of globe valves")
     high: float = between(2.6, 3.4, "height of its bottle / radius of the pipe")
     gland: Packing = nested(packings("oval follower", "round follower", "lantern"), "gland")
     screw: Any = screw_of(lambda p: 0.07 + 1.5 * PIPES[p.dn].radius)
     rise: float = among((0.0, 1.8), "how far its wedge is lifted / bore", when=lambda p: p.hollow, otherwise=0.0)
 
     def build(self, t: Table) -> Model:
-        radius, length = self.radius, FACE_TO_FACE["gate"][self.dn] * self.long
+        radius, length = self.radius, FACE_TO_FACE["globe"][self.dn] * self.long
         x, big = length / 2, 1.55 * radius + 0.015
         n, run, end, mid = t.style.round(big), 1.35 * radius + 0.004, 1.1 * radius, 0.88 * big
         barrel = outline(end, 0.12 * length, run, 0.25 * length, run, 0.75 * length, end, 0.88 * length)

@@ -110,7 +110,7 @@ class Bellows(Valve, name="globe valve/bellows seal", sizes=MID):
         t.add("valve bonnet", lid, *hood)
         t.extend([bolts])
         if self.open or self.hollow:
-            bell = waves(top + 0.01, high - 0.01, 0.45 * throat, 0.62 * throat, 7)
+            bell = waves(top - 0.001, high - 0.011, 0.45 * throat, 0.62 * throat, 7)
             t.add("valve stem", turned(bell, max(12, n // 2)))
         above, tall = t.at(0, 0, high + 0.004), self.gland.high(slim)
         self.gland.build(above, slim)
@@ -157,7 +157,7 @@ class Needle(Valve, name="needle valve/bar stock", sizes=sizes_between(most=40))
             solids.append(along("z", cylinder(0.9 * big, -0.6 * big, 1.3 * big, n), x))
         t.add("valve body", *solids)
         t, slim, z = t.at(x), 0.0025 + 0.1 * radius, top + 1.7 * big
-        t.add("valve bonnet", hexagon(1.5 * big, top - 0.002, top + 0.6 * big), cylinder(0.5 * big, top, z, 12))
+        t.add("valve bonnet", hexagon(1.5 * big, 0.9 * big, top + 0.6 * big), cylinder(0.5 * big, top, z, 12))
         t.add("gland", hexagon(1.15 * big, top + 0.75 * big, top + 1.15 * big))
         above = t.at(0, 0, z)
         put_stem(above, -0.6 * big, 0.03 + radius, slim, self.stem)

@@ -16,6 +16,7 @@ from cadplants.families.valves.parts import SMALL, bend, square, threaded_run
 from cadplants.families.valves.valve import Valve
 from cadplants.family import Model
 from cadplants.mesh_ops import Solid, extrude, moved, tube
+from cadplants.plant import Turning
 from cadplants.polygon import rounded_rectangle
 from cadplants.primitives import BOTH, along, around, ball, box, cylinder, hexagon, ring, rod, turned
 from cadplants.standards import sizes_between
@@ -60,7 +61,8 @@ class Rotary(Valve, name="mixing valve/rotary", sizes=SMALL):
         if self.knob:
             head.add("position indicator", cylinder(0.8 * w, -0.0005, 0.002, n), of="dial")
             grip = turned(outline(0.5 * w, 0.002, 0.45 * w, 0.02, 0.35 * w, 0.024), max(8, n))
-            head.spun("z", self.turn).add("lever", grip, box((0.9 * w, 0.22 * w, 0.012), (0.45 * w, 0, 0.012)))
+            tip = box((0.9 * w, 0.22 * w, 0.012), (0.45 * w, 0, 0.012))
+            head.spun("z", self.turn).add("lever", grip, tip, turns=Turning("lever"))
         else:
             wide, high, top, motor = self.width, self.height, 0.012 + self.depth, head.bundled("actuator")
             case = moved(extrude(rounded_rectangle(wide, high, 0.008, 3), 0.012, top), at(0, 0.15 * high))
@@ -99,7 +101,7 @@ class Zone(Valve, name="control valve/zone", sizes=sizes_between(15, 32)):
         slot = box((0.004, 0.02, 0.006), (0.62 * w, 0, 0.3 * h)), box((0.3 * w, 0.006, 0.004), (0.5 * w, 0, 0.3 * h))
         up.add("lever", *slot)
         if self.cabled:
-            far, z = -0.5 * w - 0.05, 0.5 * h
+            far, z = (self.shift - 0.5) * w - 0.05, 0.5 * h
             cable = bend([(far + 0.06, 0, z), (far, 0, z), (far, 0, z + 0.25)], 0.03)
             up.add("cable", tube(cable, 0.004, 0.0, 8))
         up.add("valve stem", cylinder(0.005, -0.004, 0.004, 8))
@@ -187,10 +189,11 @@ class Distributor(Valve, name="control valve/distributor", place="floor", sizes=
             name, shape = "valve bonnet", outline(0.009, 0.013, 0.008, 0.06, 0.004, 0.064)
         bundled = bar.bundled("actuator") if name == "actuator" else bar
         for x in spots:
-            bundled.at(x, 0, r).add(name, turned(shape, 12), of="dial", own=name != "handwheel")
+            turning = Turning("handwheel") if name == "handwheel" else None
+            bundled.at(x, 0, r).add(name, turned(shape, 12), of="dial", own=turning is None, turns=turning)
         bar.along("-x").add("valve body", hexagon(2.4 * r, -0.001, 0.03), cylinder(1.0 * r, 0.0, 0.034, n))
         key = box((0.012, 0.012, 0.03), (-0.017, 0, 0.012)), box((0.07, 0.016, 0.006), (-0.04, 0, 0.028))
-        bar.at(0, 0, r).add("lever", *key)
+        bar.at(0, 0, r).add("lever", *key, turns=Turning("lever", point=(-0.017, 0.0, 0.0)))
         lead = np.array([[-0.033, 0, 0], [-0.033 - self.lead, 0, 0]])
         bar.add("pipe", tube(lead, 0.9 * r, 0.8 * r * hollow, n))
         for x in (0.02, wide - 0.02):
@@ -271,10 +274,10 @@ class Bleed(Valve, name="bleed valve/hexagon", place="tap"):
         up.add("valve stem", cylinder(0.4 * r, -0.001, neck + 1.2 * r, 8))
         up = up.at(0, 0, neck + 0.9 * r)
         if self.top == "bar":
-            up.along("x").add("lever", cylinder(0.25 * r, -2.2 * r, 2.2 * r, 8))
+            up.add("lever", along("x", cylinder(0.25 * r, -2.2 * r, 2.2 * r, 8)), turns=Turning("lever"))
         elif self.top == "wing":
             wings = [box((1.6 * r, 0.3 * r, 1.2 * r), (s * 1.2 * r, 0, 0.3 * r)) for s in BOTH]
-            up.add("lever", cylinder(0.7 * r, -0.4 * r, 0.6 * r, 10), *wings)
+            up.add("lever", cylinder(0.7 * r, -0.4 * r, 0.6 * r, 10), *wings, turns=Turning("lever"))
         else:
             self.wheel.build(up, 0.014 + 1.3 * r)
         return t.model(kind="bleed valve")

@@ -180,7 +180,7 @@ class OpenPinch(Valve, name="pinch valve/open frame", sizes=sizes_between(25)):
         slim, foot = 0.007 + 0.06 * r, edge + 0.5 * bar
         put_stem(up, foot, high + (0.08 + r if self.wheeled else 0.012), slim, self.stem)
         if self.wheeled:
-            self.wheel.build(up, 0.06 + 1.2 * r, high + 0.012)
+            self.wheel.build(up, 0.06 + 1.2 * r, high + 0.02 + 0.12 * r)
         else:
             self.actuator.build(up, r, high + 0.009)
         return t.model(round(length, 6), kind="pinch valve")
@@ -241,7 +241,7 @@ class EnclosedPinch(Valve, name="pinch valve/enclosed", sizes=sizes_between(25))
             self.squeezer.build(up.at(0, 0, seat), half)
         if t.style.hollow:
             bore = t.pipe.bore
-            liner = part_ring(outline(0.86 * bore, 0, 0.985 * bore, 0, 0.985 * bore, length, 0.86 * bore, length), n)
+            liner = part_ring(outline(0.86 * bore, 0, 1.002 * bore, 0, 1.002 * bore, length, 0.86 * bore, length), n)
             t.add("valve body", about_x(liner), of="rubber")
         return t.model(round(length, 6), kind="pinch valve")
 

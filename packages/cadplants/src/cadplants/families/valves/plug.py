@@ -28,7 +28,7 @@ class Lubricated(Valve, name="plug valve/lubricated", sizes=MID):
     """A lubricated plug valve: a tapered chest, bolted gland plate, grease fitting in the square head (API 599)."""
 
     hollow: bool = styled(True, "whether insides are modelled")
-    long: float = between(1.0, 1.3, "length / of gate valves")
+    long: float = between(1.0, 1.3, "length / of ball valves")
     chest: str = among(("round", "square", "oval"), "plan of its chest")
     plate: str = among(("round", "oval", "square", "octagon"), "outline of its gland plate")
     gland: Packing = nested(packings("oval follower", "round follower"), "gland")
@@ -38,7 +38,7 @@ class Lubricated(Valve, name="plug valve/lubricated", sizes=MID):
     capped: bool = chance(0.4, "a cap below it")
 
     def build(self, t: Table) -> Model:
-        radius, length = self.radius, FACE_TO_FACE["gate"][self.dn] * self.long
+        radius, length = self.radius, FACE_TO_FACE["ball"][self.dn] * self.long
         neck, back = neck_of(self.dn)
         big, run, start = 1.3 * radius + 0.010, 1.05 * radius + 0.006, back + 0.15 * length
         n, low, high, x = t.n(big, 16), -1.35 * radius - 0.008, 1.45 * radius + 0.012, length / 2
@@ -86,8 +86,9 @@ class Eccentric(Valve, name="plug valve/eccentric", sizes=sizes_between(50)):
 
     def build(self, t: Table) -> Model:
         radius, (neck, back) = self.radius, neck_of(self.dn)
-        length, big = 0.09 + 2.0 * radius, 1.35 * radius + 0.012
-        x, n, wide, aside = length / 2, t.n(big, 16), min(big, 0.47 * length), 0.35 * radius
+        length, big = 0.12 + 2.4 * radius, 1.35 * radius + 0.012
+        x, n, aside = length / 2, t.n(big, 16), 0.35 * radius
+        wide = min(big, (x - back - 0.008) / 1.12)
         seat, plate, hub = 1.15 * radius + 0.016, 0.012 + 0.06 * radius, 0.22 * radius + 0.014
         collar, lid, bolts = lid_joint("round", wide * 1.12, wide * 1.12, seat + plate, plate, t.style)
         top = seat + 2 * plate
@@ -128,7 +129,7 @@ class MultiPort(Valve, name="plug valve/multi-port", sizes=MID):
     operator: Any = operator("worm", "rack", "motor box", "scotch", when=lambda p: not p.levered)
 
     def build(self, t: Table) -> Model:
-        radius, length = self.radius, FACE_TO_FACE["gate"][self.dn] * 1.25
+        radius, length = self.radius, FACE_TO_FACE["ball"][self.dn] * 1.25
         neck, back = neck_of(self.dn)
         x, big, run = length / 2, 1.35 * radius + 0.012, 1.05 * radius + 0.004
         n, low, high = t.n(big, 16), -1.3 * radius - 0.01, 1.4 * radius + 0.012

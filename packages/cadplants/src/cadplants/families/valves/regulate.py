@@ -15,6 +15,7 @@ from cadplants.families.valves.valve import Valve, bolt_circle, disc_flange, fla
 from cadplants.family import Model
 from cadplants.flange import plate_thickness
 from cadplants.mesh_ops import Solid, moved
+from cadplants.plant import Turning
 from cadplants.primitives import BOTH, along, around, ball, box, cylinder, hexagon, ring, rod, rope, turned
 from cadplants.standards import FACE_TO_FACE, sizes_between
 from cadplants.transforms import at
@@ -62,7 +63,7 @@ class FilterBowl(Valve, name="pressure reducing valve/filter bowl", sizes=SMALL)
         up.add("valve bonnet", turned(hood, n))
         if self.top == "knob":
             knob = outline(0.8 * w, -0.002, 0.9 * w, 0.1 * w, 0.9 * w, 0.6 * w, 0.7 * w, 0.75 * w)
-            end.add("handwheel", turned(knob, max(8, n)))
+            end.add("handwheel", turned(knob, max(8, n)), turns=Turning("handwheel"))
         elif self.top == "screw":
             end.add("valve stem", cylinder(0.12 * w, -0.002, 0.7 * w, 8), hexagon(0.4 * w, 0, 0.2 * w))
         marks = (
@@ -226,9 +227,9 @@ class SelfActing(Valve, name="pressure reducing valve/self-acting", sizes=sizes_
         can.bundled("actuator").add("actuator", pan, lid, middle, of="valve", own=True)
         can.add("bolt", bolt_circle(8, 0.94 * rim, 0.007, 0.13 * rim, 0.27 * rim))
         first = 0.88 * length - plate_thickness(t.dn) * 0.5
-        aside, deep = x + 1.2 * rim, -z - 0.7 * rim
+        aside, deep = max(x + 1.2 * rim, first + 0.4 * rim), -z - 0.7 * rim
         # Where the can is wider than the body the line passes it outside.
-        way = [(first, 0, deep)] if first - x > rim + 0.01 else [(aside, 0, -seat), (aside, 0, deep)]
+        way = [(first, 0, deep)] if first - x > rim + 0.01 else [(first, 0, -seat), (aside, 0, -seat), (aside, 0, deep)]
         line = [(first, 0.0, -0.9 * hub_radius(t.dn)), *way, (x, 0, deep), (x, 0, -z - 0.4 * rim)]
         t.add("pipe", rope(bend(line, 0.15 * rim), 0.005, 8), own=True)
         return t.model(length, kind=_REDUCING)
@@ -295,7 +296,7 @@ class MixingValve(Valve, name="mixing valve/thermostatic", sizes=SMALL):
             knob = outline(1.1 * w, -0.002, 1.25 * w, 0.2 * w, 1.15 * w, 1.3 * w, 0.8 * w, 1.5 * w)
             rib = box((0.12 * w, 0.12 * w, 0.9 * w), (0, 0, 0.75 * w))
             ribs = [around(rib, self.ribs, 1.2 * w)] if self.ribs else []
-            up.add("handwheel", turned(knob, max(8, n)), *ribs, of="rubber")
+            up.add("handwheel", turned(knob, max(8, n)), *ribs, of="rubber", turns=Turning("handwheel"))
         else:
             cap = turned(outline(0.7 * w, 0.4 * w, 0.6 * w, 1.4 * w), n)
             up.add("valve bonnet", hexagon(1.9 * w, -0.002, 0.5 * w), cap)

@@ -15,6 +15,7 @@ from cadplants.families.valves.valve import Valve, disc_flange
 from cadplants.family import Model
 from cadplants.flange import plate_thickness
 from cadplants.mesh_ops import Solid, merge, moved, tube
+from cadplants.plant import Turning
 from cadplants.primitives import BOTH, along, around, box, cylinder, hexagon, ring, rope, turned
 from cadplants.standards import FLANGES, PIPES, SIZES, sizes_between
 from cadplants.transforms import at, spun
@@ -42,14 +43,16 @@ class Cap(Params):
             pin = t.at(0, -side * 0.35 * w, 1.3 * tall).along("x")
             pin.add("valve stem", cylinder(0.07 * w, -0.34 * w, 0.34 * w, 8))
             ways = ((-0.5 * w, 1.3 * tall), (0.5 * long, 1.2 * tall), (0.7 * long, -0.3 * long))
-            t.add("lever", rope(bend([(0, side * y, z) for y, z in ways], 0.12 * long), 0.13 * w, 8))
+            arm = rope(bend([(0, side * y, z) for y, z in ways], 0.12 * long), 0.13 * w, 8)
+            t.add("lever", arm, turns=Turning("lever", (1.0, 0.0, 0.0), (0.0, -side * 0.35 * w, 1.3 * tall)))
             return
         z = 0.65 * tall
         t.add("valve bonnet", stout, along("x", cylinder(0.3 * w, 0.2 * w, 0.7 * w, 12), 0, 0, z))
         shaft = t.at(0, 0, z).along("x")
         shaft.add("valve stem", cylinder(0.1 * w, 0.4 * w, 1.05 * w, 8))
         shaft.add("gland", hexagon(0.4 * w, 0.7 * w, 0.82 * w))
-        t.add("lever", box((0.12 * w, long, 0.35 * w), (0.95 * w, side * 0.44 * long, z)))
+        arm = box((0.12 * w, long, 0.35 * w), (0.95 * w, side * 0.44 * long, z))
+        t.add("lever", arm, turns=Turning("lever", (1.0, 0.0, 0.0), (0.0, 0.0, z)))
 
 
 class _Safety(Valve, place="head", sizes=MID):
@@ -244,7 +247,8 @@ class WaterHeater(Valve, name="relief valve/water heater", place="tap"):
         up.add("valve bonnet", turned(dome, n))
         up.add("valve stem", cylinder(0.25 * r, high - 0.002, high + 1.0 * r, 8))
         flap = up.at(0, 0, high + 0.7 * r).spun("x", self.tilt)
-        flap.add("lever", box((0.9 * r, 4.2 * r, 0.16 * r), (0, 1.3 * r, 0)))
+        turning = Turning("lever", (1.0, 0.0, 0.0))
+        flap.add("lever", box((0.9 * r, 4.2 * r, 0.16 * r), (0, 1.3 * r, 0)), turns=turning)
         return t.model(kind="relief valve")
 
 

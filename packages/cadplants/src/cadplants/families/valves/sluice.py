@@ -110,8 +110,8 @@ class Sluice(Valve, name="sluice gate/wall", sizes=(100,), place="floor"):
             self.wheel.build(spindle, self.size, 0.28)
         else:
             # On a foot, so that the wheel on its side clears the frame's head.
-            spindle.at(0, 0, tall + 0.04).add("yoke", cylinder(0.09, 0.0, 0.04, 20))
-            self.operator.build(spindle.at(0, 0, tall + 0.08))
+            spindle.at(0, 0, tall + 0.04).add("yoke", cylinder(0.09, 0.0, 0.14, 20))
+            self.operator.build(spindle.at(0, 0, tall + 0.18))
         return t.model(kind="sluice gate")
 
 
@@ -120,10 +120,9 @@ class Pedestal(Valve, name="gate valve/pedestal", sizes=BIG, weight=0.7):
 
     hollow: bool = styled(True, "whether insides are modelled")
     valve: Resilient = nested(
-        lambda s, p: Resilient.draw(
-            np.random.default_rng(int(s.rng.integers(1 << 30))), {"dn": p.dn, "hollow": p.hollow}
-        ),
+        Resilient,
         "valve below the floor",
+        fixed=lambda p: {"dn": p.dn, "hollow": p.hollow, "spindle.make": "cap"},
     )
     reach: float = between(0.35, 0.8, "from the valve to the floor", "m")
     half: float = between(0.08, 0.13, "size of the pedestal's head", "m")
@@ -135,9 +134,8 @@ class Pedestal(Valve, name="gate valve/pedestal", sizes=BIG, weight=0.7):
 
     def build(self, t: Table) -> Model:
         below = self.valve.build(replace(t, parts=[]))
-        kept = [p for p in below.parts if p.name != "handwheel"]
-        t.extend(kept)
-        heads = [p for p in kept if p.name in ("valve bonnet", "gland", "valve stem")]
+        t.extend(below.parts)
+        heads = [p for p in below.parts if p.name in ("valve bonnet", "gland", "valve stem")]
         top = max(float(p.solid.vertices[:, 2].max()) for p in heads)
         reach, slim, half, tall = self.reach, 0.012, self.half, self.tall
         t = t.at(below.length / 2, 0, top)
@@ -151,7 +149,7 @@ class Pedestal(Valve, name="gate valve/pedestal", sizes=BIG, weight=0.7):
             column = outline(1.4 * half, 0, 1.4 * half, 0.015, 0.7 * half, 0.015, 0.7 * half, tall)
         t.add("yoke", turned(column, t.style.round(half)))
         t.add("position indicator", box((0.006, 0.3 * half, 0.5 * tall), (0.72 * half, 0, 0.5 * tall)))
-        t.add("bolt", around(hexagon(0.026, 0.018, 0.034), 4, 1.2 * half, np.pi / 4))
+        t.add("bolt", around(hexagon(0.026, 0.013, 0.034), 4, 1.2 * half, np.pi / 4))
         if self.wheeled:
             put_stem(t, tall - 0.02, tall + 0.1, slim)
             self.wheel.build(t, 0.11 + 0.8 * self.radius, tall + 0.01)

@@ -18,6 +18,7 @@ from cadplants.families.valves.parts import SMALL, bend, chain, square
 from cadplants.families.valves.valve import Valve
 from cadplants.family import Model
 from cadplants.mesh_ops import merge, moved, tube
+from cadplants.plant import Turning
 from cadplants.primitives import BOTH, along, around, ball, box, cylinder, hexagon, ring, rope, turned
 from cadplants.standards import PIPES
 from cadplants.transforms import at, spun
@@ -120,9 +121,8 @@ class _Needle(Params):
         if self.knob == "bar":
             self.bar.build(t.at(0, 0, 6.0 * r))
         elif self.knob == "knob":
-            t.add(
-                "handwheel", turned(outline(1.2 * r, 5.4 * r, 1.6 * r, 5.8 * r, 1.6 * r, 7.2 * r, 1.2 * r, 7.5 * r), 10)
-            )
+            knob = outline(1.2 * r, 5.4 * r, 1.6 * r, 5.8 * r, 1.6 * r, 7.2 * r, 1.2 * r, 7.5 * r)
+            t.add("handwheel", turned(knob, 10), turns=Turning("handwheel"))
         else:
             self.wheel.build(t, 0.012 + 1.5 * r, 5.8 * r)
 

@@ -14,6 +14,7 @@ from cadplants.families.valves.valve import Valve
 from cadplants.family import Model
 from cadplants.mesh_ops import Solid, extrude, merge, moved
 from cadplants.modeling_style import ModelingStyle
+from cadplants.plant import Turning
 from cadplants.polygon import circle, rounded_rectangle
 from cadplants.primitives import BOTH, along, box, cylinder, hexagon, ring, rod, turned
 from cadplants.standards import PIPES, sizes_between
@@ -155,33 +156,6 @@ class ThreadedGlobe(_Bronze, name="globe valve/threaded"):
     said: ClassVar[str] = "globe valve"
 
 
-class Needle(_Threaded, name="needle valve/bar stock", sizes=(15, 20, 25)):
-    """A needle valve: a block of bar or a hexagon, a bonnet nut, a T bar or a knob."""
-
-    block: bool = chance(0.5, "made of flat bar, not of a hexagon")
-    barred: bool = chance(0.6, "a T bar rather than a wheel")
-    bar: Any = drive_of("bar", when=lambda p: p.barred)
-    wheel: Wheel = nested(Wheel, "handwheel", when=lambda p: not p.barred)
-
-    def build(self, t: Table) -> Model:
-        r, half = t.pipe.radius, 1.2 * t.pipe.radius + 0.003
-        length, up, slim = 4.0 * r + 0.03, t.at((4.0 * r + 0.03) / 2), 0.28 * half
-        if self.block:
-            up.add("valve body", box((length, 2 * half, 2.2 * half), (0, 0, 0.2 * half)))
-        else:
-            bar = along("x", hexagon(2 * half, -length / 2, length / 2))
-            up.add("valve body", bar, cylinder(0.9 * half, 0.0, 1.3 * half, 12))
-        neck = cylinder(0.55 * half, 2.0 * half, 3.2 * half, 12)
-        up.add("valve bonnet", hexagon(1.7 * half, 1.25 * half, 2.1 * half), neck, of="trim")
-        up.add("gland", hexagon(1.2 * half, 3.1 * half, 3.6 * half))
-        put_spindle(up, 3.5 * half, 5.2 * half, slim)
-        if self.barred:
-            self.bar.build(up.at(0, 0, 4.8 * half))
-        else:
-            self.wheel.build(up, 1.5 * half + 0.005, 4.6 * half)
-        return self.done(t, length, "needle valve")
-
-
 class ThreadedCheck(_Threaded, name="check valve/threaded", weight=1.5):
     """A threaded check valve: spring type in a cylinder, or swing type with a screwed cap."""
 
@@ -227,9 +201,9 @@ class Balancing(_Threaded, name="globe valve/balancing"):
         length = 4.6 * t.pipe.radius + 0.035
         b = self.run.build(t, length, 1.25)
         n, way = t.n(b), t.at(0.5 * length).spun("y", 0.78)
-        way.add("valve bonnet", turned(outline(0.8 * b, 0.0, 0.75 * b, 2.2 * b, 0.6 * b, 2.3 * b), n))
-        knob = outline(1.1 * b, 2.3 * b, 1.2 * b, 2.4 * b, 1.2 * b, 3.6 * b, 1.0 * b, 3.8 * b)
-        way.add("handwheel", turned(knob, max(10, n)))
+        way.add("valve bonnet", turned(outline(0.8 * b, 0.0, 0.75 * b, 2.8 * b, 0.6 * b, 2.9 * b), n))
+        knob = outline(1.1 * b, 2.9 * b, 1.2 * b, 3.0 * b, 1.2 * b, 4.0 * b, 1.0 * b, 4.2 * b)
+        way.add("handwheel", turned(knob, max(10, n)), turns=Turning("handwheel"))
         for f in (0.3, 0.7):
             test = rod((0, 0.3 * b, 0.5 * b), (0, 1.6 * b, 1.2 * b), 0.16 * b, 8)
             t.at(length * f).add("valve body", test, of="trim")
@@ -254,10 +228,11 @@ class ThreadedRelief(Valve, name="relief valve/threaded", place="tap"):
         up.add("valve bonnet", turned(outline(0.85 * b, 0, 0.75 * b, tall), n), hexagon(1.7 * b, 0, 0.4 * b))
         if self.knob:
             knob = outline(0.9 * b, tall, 1.0 * b, tall + 0.3 * b, 0.95 * b, tall + b)
-            up.add("handwheel", turned(knob, max(8, n)))
+            up.add("handwheel", turned(knob, max(8, n)), turns=Turning("handwheel"))
         else:
             arm = rod((0, -0.2 * b, tall), (0, 2.4 * b, 0.8 * tall), 0.15 * b, 8)
-            up.add("lever", arm, cylinder(0.4 * b, tall, tall + 0.5 * b, n))
+            turning = Turning("lever", (1.0, 0.0, 0.0), (0.0, -0.2 * b, tall))
+            up.add("lever", arm, cylinder(0.4 * b, tall, tall + 0.5 * b, n), turns=turning)
         return t.model(kind="relief valve")
 
 
@@ -290,6 +265,6 @@ class Cock(Valve, name="sampling valve/cock", place="tap"):
 
 
 THREADED = families_of(
-    ThreadedBall, ThreePiece, ThreadedGate, ThreadedGlobe, Needle, ThreadedCheck, Solenoid, Balancing, ThreadedRelief,
+    ThreadedBall, ThreePiece, ThreadedGate, ThreadedGlobe, ThreadedCheck, Solenoid, Balancing, ThreadedRelief,
     AirVent, Cock,
 )  # fmt: skip

@@ -175,7 +175,7 @@ class CutOpen(Valve, name="ball valve/cut open", sizes=sizes_between(15, 150)):
         up, size, boss = t.at(x), 1.42 * bore * 0.98, 0.35 * r + 0.008
         high, inside = max(1.3 * big, rim) + 0.01, float(np.sqrt(size**2 - (1.1 * bore) ** 2))
         up.add("valve body", ring(0.5 * boss, boss, 0.93 * big, high, 16))
-        put_stem(up, 0.95 * size, high + 0.015, 0.45 * boss)
+        put_stem(up, 0.95 * size, high + 1.2 * boss + 0.012, 0.45 * boss)
         Packing(form="nut", turn=0.0).build(up.at(0, 0, high - 0.001), 0.45 * boss)
         up.add("valve ball", valve_ball(size, bore, t.style, self.turn))
         for low in (inside, -inside - 0.15 * bore):

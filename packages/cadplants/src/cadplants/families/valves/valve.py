@@ -10,11 +10,13 @@ import numpy as np
 from cadplants.builder.device import Device, families_of
 from cadplants.builder.params import among, between, chance, nested
 from cadplants.builder.table import Table, outline
+from cadplants.families.valves.base import LAID
 from cadplants.families.valves.drive import BODY, DiaphragmHead, Wheel, drive_of, put_spindle
 from cadplants.family import Model
 from cadplants.flange import face_shell, nut_room, plate_thickness
 from cadplants.mesh_ops import Solid, about_x, extrude, merge, moved, revolve, weld
 from cadplants.modeling_style import ModelingStyle
+from cadplants.plant import Turning
 from cadplants.polygon import circle, rounded_rectangle
 from cadplants.primitives import along, around, ball, box, cylinder, dome, hexagon, ring, rod, turned
 from cadplants.standards import FACE_TO_FACE, FLANGES, PIPES, SIZES, sizes_between
@@ -70,6 +72,11 @@ def bolt_circle(count: int, radius: float, thread: float, low: float, high: floa
     heads = [hexagon(1.6 * thread, *ends) for ends in ((high, high + head), (low - head, low))]
     one = merge([cylinder(thread / 2, low, high, 8), *heads])
     return around(one, count, radius, np.pi / count)
+
+
+def _clear(t: Table, rim: float, tilt: float) -> float:
+    """How far from the axis a cover of a radius, tilted towards an end, passes the flange there [m, rad]."""
+    return float((0.5 * t.flange.outer + 0.012 + rim * np.sin(tilt)) / np.cos(tilt))
 
 
 class Valve(Device, place="inline", group="Valve assembly", label="valve", bundle=BODY):
@@ -191,10 +198,11 @@ class BallCompact(Valve, name="ball valve/compact", sizes=tuple(dn for dn in SIZ
         lobe = around(ring(0.5 * size.bolt, 0.95 * size.bolt, 0.0, length, 12), 4, size.circle / 2, np.pi / 4)
         hole = circle(radius * 0.9, t.style.round(radius))
         block = extrude(rounded_rectangle(2 * half, 2 * half, 0.35 * half, 4), 0.0, length, (hole,))
-        boss = along("z", cylinder(0.4 * radius + 0.006, 0.9 * half, half + 0.01, 12), length / 2)
+        top = 0.5 * size.outer + 0.01
+        boss = along("z", cylinder(0.4 * radius + 0.006, 0.9 * half, top, 12), length / 2)
         t.add("valve body", along("x", block), along("x", lobe), boss)
-        put_spindle(t.at(length / 2), half + 0.01, half + 0.022, 0.006 + 0.1 * radius)
-        self.drive.build(t.at(length / 2, 0, half + 0.022))
+        put_spindle(t.at(length / 2), top, top + 0.012, 0.006 + 0.1 * radius)
+        self.drive.build(t.at(length / 2, 0, top + 0.012))
         return t.model(length, "wafer", "ball valve")
 
 
@@ -207,7 +215,7 @@ class PlugTapered(_Swollen, name="plug valve/tapered", sizes=MID):
     drive: Any = drive_of("lever", "gear", "pneumatic", "bar", when=lambda p: p.driven)
 
     def build(self, t: Table) -> Model:
-        length = FACE_TO_FACE["gate"][self.dn]
+        length = FACE_TO_FACE["ball"][self.dn]
         bulge, t = self.put_body(t, length), t.at(length / 2)
         n = t.style.round(bulge)
         chest, cover = (
@@ -219,10 +227,13 @@ class PlugTapered(_Swollen, name="plug valve/tapered", sizes=MID):
         )
         t.add("valve body", chest)
         t.add("valve bonnet", cover)
-        t.add("valve stem", box((0.5 * bulge, 0.5 * bulge, 0.4 * bulge), (0, 0, 1.75 * bulge)))
+        # A gear's wheel turns above the cover.
+        top = (2.5 if self.driven and self.drive.make == "gear" else 1.95) * bulge
+        square = 0.5 * bulge, 0.5 * bulge, top - 1.55 * bulge
+        t.add("valve stem", box(square, (0, 0, 0.5 * (top + 1.55 * bulge))))
         t.add("bolt", bolt_circle(6, 1.0 * bulge, 0.1 * bulge + 0.004, 1.2 * bulge, 1.45 * bulge))
         if self.driven:
-            self.drive.build(t.at(0, 0, 1.95 * bulge))
+            self.drive.build(t.at(0, 0, top))
         return t.model(length, kind="plug valve")
 
 
@@ -250,7 +261,8 @@ class Weir(Valve, name="diaphragm valve/weir", sizes=MID):
         t.add("valve body", collar)
         t.add("gasket", cylinder(0.95 * half, z, z + 0.003, n), of="rubber", own=True)
         t.add("valve bonnet", lid, dome(0.85 * half, 0.8 * half, z + 0.014, n))
-        t.add("bolt", bolt_circle(4, 1.15 * half, 0.008 + 0.06 * radius, z - 0.01, z + 0.014))
+        spread = (1.15 if self.square else 0.86) * half
+        t.add("bolt", bolt_circle(4, spread, min(0.008 + 0.06 * radius, 0.14 * half), z - 0.01, z + 0.014))
         top = z + 0.014 + 0.75 * half
         put_spindle(t, top, top + 0.03 + 0.5 * radius, 0.004 + 0.1 * radius)
         self.wheel.build(t, 0.03 + 1.2 * radius, top + 0.015 + 0.3 * radius)
@@ -286,7 +298,7 @@ class _Butterfly(Valve, sizes=BIG):
             outline(0.3 * bore, -0.1 * bore, rim, -0.004, rim, 0.004, 0.3 * bore, 0.1 * bore), t.style.round(outer)
         )
         t.spun("z", self.turn).add("valve disc", along("x", blade))
-        put_spindle(t, top, top + 0.02, 0.35 * neck + 0.003)
+        put_spindle(t, -1.01 * bore, top + 0.02, 0.35 * neck + 0.003)
         self.drive.build(t.at(0, 0, top + 0.02))
         return t.model(length, self.joint, "butterfly valve")
 
@@ -371,7 +383,7 @@ class WaferCheck(Valve, name="check valve/wafer", sizes=BIG, weight=1.5):
             plate = extrude(0.97 * bore * np.column_stack([np.cos(a), np.sin(a)]), 0.35 * length, 0.35 * length + 0.006)
             for turn in (0.0, np.pi):
                 t.add("valve disc", along("x", moved(plate, spun("z", turn))))
-            t.add("valve stem", along("y", cylinder(0.05 * bore + 0.002, -bore, bore, 8), 0.45 * length))
+            t.add("valve stem", along("y", cylinder(0.05 * bore + 0.002, -bore, bore, 8), 0.35 * length))
         return t.model(round(length, 6), "wafer", "check valve")
 
 
@@ -380,18 +392,22 @@ class BallCheck(_Swollen, name="check valve/ball", sizes=MID):
 
     swell = 1.3
 
-    tilt: float = between(0.5, 0.9, "of its chamber", "rad")
+    tilt: float = between(0.4, 0.62, "of its chamber", "rad")
 
     def build(self, t: Table) -> Model:
         length = FACE_TO_FACE["check"][self.dn]
         bulge, whole_table = self.put_body(t, length), t
-        n, reach = t.style.round(bulge), max(2.4 * bulge, 0.6 * t.flange.outer)
-        arm, rim = 0.95 * bulge, 1.2 * bulge
-        t = t.at(0.55 * length, 0, 0.2 * bulge).spun("y", self.tilt)
+        n, arm, thread = t.style.round(bulge), 0.95 * bulge, 0.004 + 0.06 * bulge
+        rim = arm + 2.2 * thread
+        reach = max(2.4 * bulge, _clear(t, rim, self.tilt) - 0.2 * bulge)
+        # Its chamber passes the outlet's flange, too.
+        aside = (0.5 * t.flange.outer + 0.01 - 0.2 * bulge) * np.tan(self.tilt) + arm / np.cos(self.tilt)
+        x = min(0.55 * length, length - plate_thickness(self.dn) - float(aside))
+        t = t.at(x, 0, 0.2 * bulge).spun("y", self.tilt)
         t.add("valve body", turned(outline(arm, 0, arm, reach, rim, reach, rim, reach + 0.012), n))
         lid = outline(rim, reach + 0.012, rim, reach + 0.026, 0.6 * bulge, reach + 0.036)
         t.add("valve bonnet", turned(lid, n))
-        t.add("bolt", bolt_circle(4, 1.08 * bulge, 0.01, reach, reach + 0.026))
+        t.add("bolt", bolt_circle(4, arm + 1.1 * thread, thread, reach, reach + 0.026))
         return whole_table.model(length, kind="check valve")
 
 
@@ -445,14 +461,15 @@ class GlobeY(_Swollen, name="globe valve/Y pattern", sizes=MID):
     def build(self, t: Table) -> Model:
         length, radius = FACE_TO_FACE["globe"][self.dn], self.radius
         bulge = self.put_body(t, length)
-        n, reach = t.style.round(bulge), max(2.2 * bulge, 0.65 * t.flange.outer)
-        neck, rim, high = 0.85 * bulge, 1.15 * bulge, reach + 0.06 + radius
+        n, neck, rim = t.style.round(bulge), 0.85 * bulge, 1.15 * bulge
+        reach = max(2.2 * bulge, _clear(t, rim, self.tilt))
+        high = reach + 0.06 + radius
         t = t.at(0.48 * length, 0, 0.1 * bulge).spun("y", self.tilt)
         t.add("valve body", turned(outline(neck, 0, neck, reach, rim, reach, rim, reach + 0.012), n))
         cap = outline(rim, reach + 0.012, rim, reach + 0.026, 0.5 * bulge, reach + 0.04, 0.4 * bulge, high)
         t.add("valve bonnet", turned(cap, n))
         put_spindle(t, high, high + 0.04 + 0.8 * radius, 0.005 + 0.1 * radius)
-        self.wheel.build(t, 0.04 + 1.3 * radius, high + 0.02 + 0.6 * radius, "")
+        self.wheel.build(t, 0.04 + 1.3 * radius, high + 0.02 + 0.6 * radius)
         return t.model(length, kind="globe valve")
 
 
@@ -467,13 +484,13 @@ class Reducing(_Swollen, name="pressure reducing valve/spring", sizes=MID):
         length = FACE_TO_FACE["globe"][self.dn]
         b, t = self.put_body(t, length), t.at(length / 2)
         n, z = t.style.round(2 * b), max(1.2 * b, 0.5 * t.flange.outer)
-        pan = outline(0.7 * b, 0.6 * b, 0.7 * b, z, 1.7 * b, z + 0.2 * b, 1.7 * b, z + 0.35 * b)
-        hood = outline(1.7, 0.35, 1.7, 0.5, 0.75, 0.9, 0.7, 2.6, 0.4, 2.8)
-        t.add("valve body", turned(pan, n))
-        t.add("valve bonnet", turned([(r * b, z + h * b) for r, h in hood], n))
+        pan = outline(0.7, 0.6 - z / b, 0.7, 0, 1.3, 0.2, 1.7, 0.2, 1.7, 0.35)
+        hood = outline(1.7, 0.35, 1.7, 0.5, 1.3, 0.5, 0.75, 0.9, 0.7, 2.6, 0.4, 2.8)
+        for name, side in (("valve body", pan), ("valve bonnet", hood)):
+            t.add(name, turned([(r * b, z + h * b) for r, h in side], n))
         screw = cylinder(0.1 * b + 0.003, z + 2.75 * b, z + 3.3 * b, 8)
         t.add("valve stem", screw, hexagon(0.4 * b, z + 2.8 * b, z + 3.0 * b))
-        t.add("bolt", bolt_circle(8, 1.55 * b, 0.01, z + 0.2 * b, z + 0.5 * b))
+        t.add("bolt", bolt_circle(8, 1.5 * b, min(0.016, 0.2 * b), z + 0.2 * b, z + 0.5 * b))
         if self.canned:
             t.at(0, 0, -1.35 * b).add("valve body", cylinder(0.9 * b, 0.0, 0.5 * b, n))
         return t.model(length, kind="pressure reducing valve")
@@ -490,18 +507,19 @@ class Relief(Valve, name="relief valve/spring", sizes=MID, place="head", weight=
         out = SIZES[min(SIZES.index(self.dn) + 1, len(SIZES) - 1)]
         centre = 0.6 * size.outer + 0.03  # API 526 proportions: centre to inlet face about the flange's radius and more
         b, n, reach = 1.6 * radius + 0.010, t.style.round(size.outer / 2), 0.6 * FLANGES[out].outer + 0.03
-        chest = [(r * b, centre + z * b) for r, z in outline(0.8, -1, 1, -0.5, 1, 0.7, 1.15, 0.8, 1.15, 0.95)]
+        chest = [(r * b, centre + z * b) for r, z in outline(0.8, -1, 1, -0.5, 1, 0.7, 1.35, 0.8, 1.35, 0.95)]
         outlet = along("y", moved(disc_flange(out, t.style, reach), at(0, 0, -reach)), centre)
         t.add("valve body", about_x(disc_flange(self.dn, t.style, centre)), about_x(turned(chest, n)), outlet)
         tall, low = self.tall * b, centre + 0.95 * b
-        rim, top = outline(1.15 * b, low, 1.15 * b, low + 0.15 * b, 0.75 * b, low + 0.35 * b), low + tall
+        rim, top = outline(1.35 * b, low, 1.35 * b, low + 0.15 * b, 0.75 * b, low + 0.35 * b), low + tall
         t.add("valve bonnet", about_x(turned([*rim, (0.7 * b, low + 0.8 * tall), (0.5 * b, top)], n)))
         cap = [cylinder(0.38 * b, low + 0.95 * tall, low + 1.3 * tall, n), hexagon(0.9 * b, top, low + 1.1 * tall)]
         t.add("valve bonnet", *map(about_x, cap), of="trim")
-        bolts = bolt_circle(4, 1.0 * b, 0.01 + 0.05 * radius, low - 0.15 * b, low + 0.15 * b)
+        bolts = bolt_circle(4, 1.17 * b, min(0.024, 0.16 * b), low - 0.15 * b, low + 0.15 * b)
         t.add("bolt", about_x(bolts))
         if self.levered:
-            t.add("lever", rod((low + 1.2 * tall, 0.0, 0.3 * b), (low + 0.75 * tall, 0.0, 1.6 * b), 0.1 * b, 8))
+            pin, tip = (low + 1.2 * tall, 0.0, 0.3 * b), (low + 0.75 * tall, 0.0, 1.6 * b)
+            t.add("lever", rod(pin, tip, 0.1 * b, 8), turns=Turning("lever", (0.0, -1.0, 0.0), pin))
         return t.model(kind="relief valve")
 
 
@@ -520,9 +538,9 @@ class GlobeAngle(Valve, name="globe valve/angle", sizes=MID, place="head"):
         t.add("valve body", inlet, moved(ball(b, n), at(centre)), outlet)
         neck = outline(0.85 * b, centre, 0.85 * b, high, 1.1 * b, high, 1.1 * b, high + 0.03, 0.5 * b, high + 0.05)
         t.add("valve bonnet", about_x(turned([*neck, (0.4 * b, top)], n)))
-        t = t.moved(np.eye(4)[[2, 0, 1, 3]])  # as ``about_x`` lays it
+        t = t.moved(LAID)
         put_spindle(t, top, top + 0.05 + radius, 0.005 + 0.1 * radius)
-        self.wheel.build(t, 0.04 + 1.3 * radius, top + 0.03 + 0.7 * radius, "")
+        self.wheel.build(t, 0.04 + 1.3 * radius, top + 0.03 + 0.7 * radius)
         return t.model(kind="globe valve")
 
 

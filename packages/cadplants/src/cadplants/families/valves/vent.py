@@ -111,7 +111,7 @@ class AirBowl(Valve, name="air valve/bowl", place="head", sizes=sizes_between(25
         self._top(t.at(0, 0, seat + plate), w, n)
         if self.cock:
             z = low + 0.75 * tall
-            t.at(0, 0, z).along("y").add("valve body", hexagon(0.02, 0.95 * w, 0.99 * w + 0.025))
+            t.at(0, 0, z).along("y").add("valve body", hexagon(0.02, 0.95 * w, w + 0.025))
             t.add("lever", box((0.05, 0.006, 0.01), (0.015, w + 0.026, z)))
         return lying(t, "air valve")
 
