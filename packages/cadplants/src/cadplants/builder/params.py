@@ -462,8 +462,22 @@ def _with_inner(
         first = next(iter({**given, **(fixed or {})}))
         raise ValueError(f"{name}.{first}: the device has no {name} with parameters of its own")
     told = {key.split(".")[0] for key in (*given, *(fixed or {}))}
-    kept = {key: getattr(piece, key) for key in piece.fields() if key not in told}
+    kept = {key: value for key, value in _set_by_builder(piece, source).items() if key not in told}
     return _draw_piece(name, type(piece), source, given, {**kept, **(fixed or {})})
+
+
+def _set_by_builder(piece: Params, source: Source) -> dict[str, Any]:
+    """The parameters of a piece that its own draw from this source would not give: who asked for it set them. The
+    others may become others with what they follow from.
+    """
+    before, found = SimpleNamespace(), {}
+    for key, spec in piece.fields().items():
+        value = getattr(piece, key)
+        out = spec.when is not None and not spec.when(before)
+        if value != (spec.otherwise if out else spec.sample(source.of(key), before)):
+            found[key] = value
+        setattr(before, key, value)
+    return found
 
 
 def _draw_piece(
