@@ -186,7 +186,7 @@ class Drums(Tank, name="tank/drums", weight=0.9):
             self._cradle(t)
             return t.model(kind="drum")
         spots = ((-0.31, -0.31), (0.31, 0.31), (0.31, -0.31), (-0.31, 0.31))
-        for (x, y), turn in zip(spots, self.turns, strict=False):
+        for (x, y), turn in zip(spots if self.count > 1 else ((0.0, 0.0),), self.turns, strict=False):
             self._drum(t.at(x, y, self.base).spun("z", turn))
         if self.base == 0.3:
             w = 1.3

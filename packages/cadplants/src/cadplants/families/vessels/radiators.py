@@ -51,7 +51,7 @@ class TowelRail(_Radiator, name="radiator/towel rail"):
     groups: int = whole(2, 4, "groups of bars")
     bars: str = among(("between", "in front", "flat"), "where round bars are, or flat ones")
     square: bool = chance(0.4, "its rails are square")
-    bow: float = among((0.0, 0.05, 0.08), "how far round bars bow", "m")
+    bow: float = among((0.0, 0.05, 0.08), "how far round bars bow", "m", when=lambda p: p.bars != "flat", otherwise=0.0)
 
     def build(self, t: Table) -> Model:
         w, h, low, stand, n = self.width, self.height, 0.25, 0.09, t.n(0.015, 6, 12)
@@ -102,10 +102,12 @@ class Convector(_Radiator, name="radiator/convector"):
         up.add(_RAD, *bars, of="clamp")
         z, out = low + 0.08, w / 2 - 0.02
         fins = [box((0.001, 0.85 * d, 0.1), (x, 0, z)) for x in np.linspace(-0.44, 0.44, 40) * w]
-        tubes = [rod((-w / 2 - 0.05, y, z), (out, y, z), 0.0107, 10) for y in (-0.2 * d, 0.2 * d)]
-        up.add(_RAD, *fins, *tubes, of="trim")
+        y, x = 0.2 * d, -w / 2 - 0.06
+        up.add(_RAD, *fins, rope([(x, -y, z), (out, -y, z), (out, y, z), (x, y, z)], 0.0107, 10), of="trim")
+        z += self.lift
+        _valve(t, x, -y, z, -1)
+        t.add("pipe", rope([(x + 0.02, y, z), (x, y, z), (x, y, 0)], 0.0075, 8))
         if self.footed:
-            _valve(t, -w / 2 - 0.06, -0.2 * d, z, -1)
             t.add("bracket", *(box((0.04, 0.9 * d, low + 0.01), (s * 0.35 * w, 0, (low + 0.01) / 2)) for s in BOTH))
         else:
             t.extend([wall_behind(w + 0.6, 1.2, d / 2)])

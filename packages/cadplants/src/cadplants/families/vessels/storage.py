@@ -94,18 +94,13 @@ class _Access(Params):
     """A ladder or stairs up the shell, and a railing round the roof."""
 
     high: float = given(2.0, "height of the shell's upper rim", "m")
-    ladder: bool = chance(0.5, "a ladder rather than stairs, wherever it is not low", when=lambda p: p.high > 1.6)
-    caged: bool = among(
-        (False, True),
-        "whether the ladder is caged",
-        when=lambda p: p.high > 1.6 and (p.ladder or p.high < 2.0),
-        otherwise=False,
-    )
+    ladder: bool = chance(0.5, "a ladder rather than stairs", when=lambda p: p.high >= 2.0, otherwise=True)
+    caged: bool = chance(0.5, "whether the ladder is caged", when=lambda p: p.high > 1.8 and p.ladder)
     railed: bool = chance(0.6, "a railing round the roof")
 
     def build(self, t: Table, drum: Drum, rise: float) -> None:
         if drum.high > 1.6:
-            if self.ladder or drum.high < 2.0:
+            if self.ladder:
                 gap, high = 0.18, drum.high + 1.0
                 up = ladder(drum.r + gap, 0.0, high, t.style, self.caged, gap + drum.dip)
                 t.spun("z", 0.5).add("ladder", up)

@@ -6,7 +6,7 @@ import numpy as np
 
 from cadplants.builder.device import Device, families_of
 from cadplants.builder.draws import made
-from cadplants.builder.params import Params, among, between, chance, nested, several, whole
+from cadplants.builder.params import Params, among, between, chance, given, nested, several, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.valves.valve import bolt_circle, disc_flange
 from cadplants.family import Model, Part, Port, placed
@@ -123,7 +123,12 @@ def level_gauge(
 class _Nozzle(Params):
     """A nozzle on the side of an upright shell."""
 
-    size: int = among((25, 40, 50, 80, 100), "nominal size, where the shell is large enough", "mm")
+    room: float = given(1.0, "radius of the shell", "m")
+    size: int = among(
+        lambda p: tuple(dn for dn in (25, 40, 50, 80, 100) if dn == 25 or FLANGES[dn].outer <= 0.8 * p.room),
+        "nominal size",
+        "mm",
+    )
     turn: float = between(0, 0.5, "round the shell from its even place", "rad")
     height: float = between(0.15, 0.85, "over the shell's lower rim / height of the shell")
 
@@ -140,7 +145,9 @@ class _Upright(Tank):
     legs: int = among((3, 4), "legs", when=lambda p: p.feet == "legs", otherwise=0)
     section: str = among(("pipe", "angle", "tube"), "of the legs", when=lambda p: p.feet == "legs", otherwise="")
     count: int = whole(1, 3, "nozzles on the side")
-    nozzles: tuple[_Nozzle, ...] = several(made(_Nozzle), lambda p: p.count, "nozzles on the side")
+    nozzles: tuple[_Nozzle, ...] = several(
+        made(_Nozzle, lambda p: {"room": p.radius}), lambda p: p.count, "nozzles on the side"
+    )
     topped: bool = chance(0.7, "a nozzle on top")
     manned: bool = chance(0.6, "a manway", when=lambda p: p.radius > 0.5)
     lugs: bool = chance(0.5, "lifting lugs")
@@ -159,8 +166,12 @@ class _Upright(Tank):
             self._stand(t, base, n)
         ports = []
         for k, one in enumerate(self.nozzles):
-            dn = one.size if FLANGES[one.size].outer <= 0.8 * r else 25
-            angle, z, reach = 2.2 * k + one.turn, base + height * one.height, 0.08 + PIPES[dn].radius
+            dn, angle, z, reach = (
+                one.size,
+                2.2 * k + one.turn,
+                base + height * one.height,
+                0.08 + PIPES[one.size].radius,
+            )
             _beside(t, r, z, angle).extend(nozzle(dn, reach, t.style))
             way = np.array([np.cos(angle), np.sin(angle), 0.0])
             ports += [Port(looking(way * (r + reach) + (0, 0, z), way), dn)] if z > 0.6 else []
@@ -242,8 +253,8 @@ class Horizontal(Tank, name="tank/horizontal", weight=2):
     ends: str = among((*_HEADS, "flat"), "heads at its ends")
     count: int = whole(2, 3, "nozzles on top")
     first: int = among(_SIZES, _ABOUT_SIZE.format("first"), "mm")
-    second: int = among(_SIZES, _ABOUT_SIZE.format("second"), "mm")
     manned: bool = chance(0.6, "a manway in place of the second nozzle", when=lambda p: p.radius > 0.4)
+    second: int = among(_SIZES, _ABOUT_SIZE.format("second"), "mm", when=lambda p: not p.manned, otherwise=0)
     third: int = among(_SIZES, _ABOUT_SIZE.format("third"), "mm", when=lambda p: p.count == 3, otherwise=0)
 
     def build(self, t: Table) -> Model:

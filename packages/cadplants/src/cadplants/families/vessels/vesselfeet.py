@@ -45,8 +45,6 @@ def _anchors(t: Table, points: Sequence[tuple[float, float]], thread: float, gri
 class Saddle(Params):
     """A saddle across x = 0 (DIN 28080, or built as small makers do)."""
 
-    half: float = between(0.85, 1.1, "half the angle that the wear plate of a ribbed one embraces", "rad")
-
     def parts(self, r: float, axis: float, style: ModelingStyle) -> list[Part]:
         """The saddle of a vessel of radius ``r`` whose axis is at ``axis`` over the floor [m]."""
         t = Table(style, "Tank", "saddle")
@@ -63,6 +61,7 @@ class Ribbed(Saddle):
 
     kind = "ribbed"
 
+    half: float = between(0.85, 1.1, "half the angle that the wear plate embraces", "rad")
     ribs: int = whole(2, 4, "ribs")
 
     def build(self, t: Table, r: float, axis: float) -> None:
