@@ -213,7 +213,7 @@ class Electronic(
 
 
 class Duckfoot(Device, name="pump/duckfoot", group=PUMP, label="pump", bundle=CASING, sizes=(50, 65, 80, 100, 150)):
-    """A sewage pump in a sump: coupled to a duckfoot bend by its claw, two guide rails, riser, chain, power cable."""
+    """A sewage pump in a sump: coupled to a duckfoot bend by its claw, two guide rails, a power cable."""
 
     tall: float = between(2.2, 3.6, "height of the motor / radius of the casing")
     fins: int = among((8, 12, 16), "fins of the motor")

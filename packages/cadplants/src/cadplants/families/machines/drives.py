@@ -147,21 +147,26 @@ def _air_cooled(p: Any) -> bool:
     return bool(p.frame != "cooled")
 
 
+def _fitted(p: Any) -> bool:
+    return _air_cooled(p) and not p.bare
+
+
 class Motor(Params):
     """An electric motor (IEC 60072 and NEMA MG 1 proportions)."""
 
     standing: bool = given(False, "whether it stands on feet rather than hangs on its flange")
+    bare: bool = given(False, "whether it is without its terminal box and what else is on it")
     fine: bool = given(True, "whether it is modelled with all its fins")
     frame: str = among(MOTORS, "how its frame is made")
     cooler: float = between(0.5, 0.9, "height of the cooler on it / radius", when=lambda p: p.frame == "cooled")
     cover: str = among(
         lambda p: _COVERS[:4] if p.standing else _COVERS, "form of its fan cover", when=_air_cooled, otherwise=""
     )
-    turn: int = among((0, 0, 0, 1, -1), "quarter turns of its terminal box", when=_air_cooled, otherwise=0)
+    turn: int = among((0, 0, 0, 1, -1), "quarter turns of its terminal box", when=_fitted, otherwise=0)
     lid: str = among(
         ("plain", "inclined", "glands", "round"),
         "form of its terminal box",
-        when=lambda p: p.frame not in ("cooled", "ex"),
+        when=lambda p: _fitted(p) and p.frame != "ex",
         otherwise="round",
     )
     fins: int = among(
@@ -170,11 +175,11 @@ class Motor(Params):
         when=lambda p: p.frame == "ex" or (p.frame == "cast" and p.fine),
         otherwise=3,
     )
-    terminals: TerminalBox = nested(TerminalBox, "terminal box", when=_air_cooled)
+    terminals: TerminalBox = nested(TerminalBox, "terminal box", when=_fitted)
     pads: bool = chance(0.5, "its feet are pads with webs", when=lambda p: p.standing and _air_cooled(p))
-    eye: bool = chance(0.35, "a lifting eye sits on it", when=_air_cooled)
+    eye: bool = chance(0.35, "a lifting eye sits on it", when=_fitted)
 
-    def build(self, t: Table, r: float, length: float, feet: float = 0.0, bare: bool = False) -> None:
+    def build(self, t: Table, r: float, length: float, feet: float = 0.0) -> None:
         """Puts it down about z from 0, its fan end up, its top towards +x.
 
         Args:
@@ -182,7 +187,6 @@ class Motor(Params):
             r: radius over the fins [m].
             length: with the fan cover [m].
             feet: height of the axis over its seat; 0 for one mounted by its flange [m].
-            bare: without its terminal box and what else is on it.
         """
         t = t.bundled("motor")
         if self.frame == "cooled":
@@ -191,7 +195,7 @@ class Motor(Params):
             frame = [self._frame(r, length, t.style), *(self._feet(r, length, feet) if feet else [])]
             t.add("motor", *frame, own=True)
             t.add("motor fan cover", self._hood(r, length, t.style), of="motor", own=True)
-            if bare:
+            if self.bare:
                 return
             terminals = self.terminals.solid(self.lid, r, length, t.style)
             t.spun("z", self.turn * np.pi / 2).add("terminal box", terminals, own=True)

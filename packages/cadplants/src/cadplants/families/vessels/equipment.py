@@ -163,7 +163,7 @@ class PanelRadiator(Equipment, name="radiator/panel", label=_RAD, bundle=_RAD, w
         panel = extrude(np.vstack([front, [(w / 2, 0.004), (-w / 2, 0.004)]]), low, low + h)
         t.add(_RAD, *(moved(panel, at(0, k * gap)) for k in range(count)))
         spots = [(x, gap / 2 + j * gap) for x in np.linspace(-0.48 * w, 0.48 * w, 24) for j in range(count - 1)]
-        t.add(_RAD, *(box((0.001, 0.6 * gap, 0.85 * h), (x, y, low + h / 2)) for x, y in spots))
+        t.add(_RAD, *(box((0.001, 0.88 * gap, 0.85 * h), (x, y, low + h / 2)) for x, y in spots))
         if self.covered:
             t.add(_RAD, box((w, deep, 0.012), (0, middle, low + h + 0.006)))
             t.add(_RAD, *(box((0.004, deep, h), (s * w / 2, middle, low + h / 2)) for s in BOTH))

@@ -132,7 +132,7 @@ class Sectional(Tank, name="tank/sectional panels", weight=0.7):
     deep: int = whole(1, 3, "panels along its depth")
     tiers: int = whole(1, 2, "rows of panels")
     side: float = among(lambda p: (0.5, 1.0) if p.across + p.deep > 5 else (1.0,), "side of a panel", "m")
-    smaller: bool = chance(0.4, "its panels' sides are at most 0.75 m")
+    smaller: bool = chance(0.4, "its panels' sides are at most 0.75 m", when=lambda p: p.side > 0.75)
     base: float = between(0.35, 0.6, "height of its floor", "m")
     joined: bool = chance(0.5, "the walls are one mesh")
     hatch: Manway = nested(MANWAYS["hatch"], "hatch")
