@@ -129,7 +129,7 @@ class TerminalBox(Params):
         z, wide, deep = self.place * length, self.wide * r, self.deep * r
         long, top = self.long * wide, 0.8 * r + deep
         case = extrude(rounded_rectangle(wide, long, 0.12 * wide, 2), 0.0, deep)
-        case = moved(case, at(0.8 * r, 0, z) @ LYING @ spun("z", np.pi / 2))
+        case = moved(case, at(0.8 * r, 0, z) @ LYING)
         gland = merge([hexagon(0.22 * r, 0, 0.07 * r), cylinder(0.08 * r, 0, 0.2 * r, 8)])
         glands = [along("y", gland, 0.8 * r + 0.55 * deep, long / 2, z + s * 0.22 * wide) for s in BOTH]
         if lid == "round":
@@ -229,10 +229,11 @@ class Motor(Params):
         if self.frame == "drip":
             bell = turned(outline(0.93 * r, 0.72 * length, 0.93 * r, high, 0.5 * r, high), n)
             bars = [
-                moved(around(box((0.06 * r, 0.2 * r, 0.08 * length), (0.93 * r, 0, z * length)), 10), spun("z", 0.3))
-                for z in (0.13, 0.75)
+                moved(around(box((0.06 * r, 0.2 * r, 0.12 * length), (0.93 * r, 0, z * length)), 10), spun("z", 0.3))
+                for z in (0.13, 0.7)
             ]
-            return merge([nose, cylinder(r, 0.18 * length, 0.68 * length, n), bell, *bars])
+            drums = [cylinder(r, 0.18 * length, 0.68 * length, n), cylinder(0.8 * r, 0.05 * length, 0.75 * length, n)]
+            return merge([nose, *drums, bell, *bars])
         ribs = around(box((0.2 * r, 0.06 * r, high - low), (0.92 * r, 0, (low + high) / 2)), self.fins)
         lips = [cylinder(1.06 * r, z * length, (z + 0.035) * length, n) for z in (0.09, 0.125, 0.75)]
         heads = around(hexagon(0.12 * r, 0.07 * length, 0.092 * length), 8, 0.96 * r)

@@ -91,9 +91,9 @@ class Plate(_Exchanger, name="heat exchanger/plate", weight=1.5):
             ports.append(Port(looking((-thick / 2 - 0.12, y, low + 0.86 * tall), (-1, 0, 0)), dn))
         t.add(_HEX, *ends, of="valve")
         count = int(np.clip(stack / 0.02, 8, 40))
-        step, sheet = stack / count, (0.6 * stack / count, wide, 0.95 * tall)
-        xs = thick / 2 + (np.arange(count) + 0.5) * step
-        t.add(_HEX, *(box(sheet, (x, 0, low + tall / 2)) for x in xs), of="trim")
+        step, mid = stack / count, low + tall / 2
+        xs, sides = thick / 2 + (np.arange(count) + 0.5) * step, (1.0, 0.97)
+        t.add(_HEX, *(box((step, sides[k % 2] * wide, 0.95 * tall), (x, 0, mid)) for k, x in enumerate(xs)), of="trim")
         rails = [rod((0, 0, z), (end, 0, z), 0.02, 10) for z in (high + 0.02, low - 0.005)]
         t.add(_HEX, *rails, box((0.06, 0.12, high + 0.06), (end, 0, (high + 0.06) / 2)), of="steel")
         spots = [(s * 0.54 * wide, low + f * tall) for s in BOTH for f in (0.15, 0.5, 0.85)]
@@ -139,9 +139,10 @@ class AirCooled(_Exchanger, name="heat exchanger/air cooled"):
         t.add(_HEX, *heads, *(moved(p.solid, spot) for spot in spots for p in mouth), of="tank")
         t.add(_HEX, *(box((0.004, d, h), (x, 0, middle)) for x in np.linspace(-0.45 * w, 0.45 * w, 36)), of="trim")
         blades = around(box((0.3 * small, 0.08, 0.006), (0.2 * small, 0, 0)), 5)
+        hub = cylinder(0.08 * small, top + 0.09, top + 0.22, 16)
         shroud = ring(0.38 * small, 0.42 * small, top + 0.1, top + 0.25, t.n(0.4))
         hood = box((w, d, 0.1), (0, 0, top + 0.05))
-        t.add("blower", hood, shroud, moved(blades, at(0, 0, top + 0.2)), of="clamp")
+        t.add("blower", hood, shroud, hub, moved(blades, at(0, 0, top + 0.2)), of="clamp")
         t.add("column", *(box((0.06, 0.06, top), (sx * (w / 2 + 0.02), sy * d / 2, top / 2)) for sx, sy in CORNERS))
         ports = [Port(looking((-w / 2 - 0.16, y, middle), (-1, 0, 0)), 40) for y in (-0.3 * d, 0.3 * d)]
         return t.model(kind="air cooler", ports=ports)

@@ -114,7 +114,7 @@ class BracedPlates(Tank, name="tank/braced plates", weight=0.9):
             ports += branch(t, "plain", dn, pose)
         if top > 1.5:
             up = t.at(-0.2 * w, -d / 2 - 0.17).spun("z", -np.pi / 2)
-            up.add("ladder", ladder(0.0, 0.0, top + 0.6, t.style, False, 0.12))
+            up.add("ladder", ladder(0.0, 0.0, top + 0.6, t.style, False, 0.16))
         return t.model(kind="rectangular tank", ports=ports)
 
     def _waves(self) -> Floats:
@@ -161,7 +161,7 @@ class Sectional(Tank, name="tank/sectional panels", weight=0.7):
             t.add("foundation", box((w + 0.2, 0.2, dwarf), (0, y, dwarf / 2)))
         t.at(w / 2 - p / 2, d / 2 - p / 2, base + h + 0.05).extend(self.hatch.parts(t.style, 0.25))
         up = t.at(-w / 2 + p / 2, -d / 2 - 0.17).spun("z", -half)
-        up.add("ladder", ladder(0.0, 0.0, base + h + 0.7, t.style, False, 0.15))
+        up.add("ladder", ladder(0.0, 0.0, base + h + 0.7, t.style, False, 0.17))
         ports = branch(t, "plain", 80, at(w / 2 + 0.05, -d / 2 + p / 2, base + 0.5 * p) @ spun("y", half))
         return t.model(kind="sectional tank", ports=ports)
 

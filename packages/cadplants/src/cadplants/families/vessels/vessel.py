@@ -14,7 +14,7 @@ from cadplants.flange import plate_thickness
 from cadplants.mesh_ops import Solid, extrude, merge, moved, revolve, weld
 from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle
-from cadplants.primitives import along, around, ball, box, cylinder, hexagon, ring, rod, rope, turned
+from cadplants.primitives import BOTH, along, around, ball, box, cylinder, hexagon, ring, rod, rope, turned
 from cadplants.standards import FLANGES, PIPES
 from cadplants.transforms import at, looking, spun
 
@@ -94,7 +94,7 @@ class LevelGauge(Params):
         column, middle = 0.012 if self.glass else 0.03, (r + out) / 2
         for z in (low, high):
             nut = merge([hexagon(0.045, -0.02, 0.02), ring(0.011, 0.03, -0.05, -0.04, 12)])
-            cocks += [along("x", nut, middle, 0, z), rod((middle, -0.03, z), (middle, -0.09, z), 0.005, 8)]
+            cocks += [along("x", nut, middle, 0, z), rod((middle, 0, z), (middle, -0.09, z), 0.005, 8)]
         t.add("gauge stem", *(rod((r - 0.01, 0, z), (out, 0, z), 0.011, 10) for z in (low, high)), own=True)
         t.add("gauge stem", *cocks, own=True)
         tube = cylinder(column, low - 0.06, high + 0.06, style.round(column))
@@ -158,7 +158,7 @@ class _Upright(Tank):
         r, height, n = self.radius, self.slender * self.radius, t.n(self.radius)
         n = n if n < 24 else max(32, n)
         standing = self.feet != "none"
-        base = head_profile(self.lower, r)[-1][1] + 0.06 * r + self.clear if standing else 0.02 + 0.06 * r
+        base = head_profile(self.lower, r)[-1][1] + 0.06 * r + self.clear if standing else 0.01 + 0.06 * r
         t.at(0, 0, base).add("shell", _shell(r, height, t.style, n))
         t.at(0, 0, base + height).add("dished head", _head(self.upper, r, t.style, n))
         t.at(0, 0, base).spun("x", np.pi).add("dished head", _head(self.lower, r, t.style, n))
@@ -201,7 +201,7 @@ class _Upright(Tank):
             apart(t, "skirt", ring(0.85 * r, 1.12 * r, 0.0, 0.02, n))
             return
         high, thin = low + 0.25 * r, 0.1 * side
-        angle = np.array(outline(0, 0, side, 0, side, thin, thin, thin, thin, side, 0, side)) - 0.3 * side
+        angle = np.array(outline(0, 0, side, 0, side, thin, thin, thin, thin, side, 0, side)) - (0.5 * side, 0.3 * side)
         if self.section == "pipe":
             leg = ring(0.4 * side if t.style.hollow else 0.0, 0.5 * side, 0.0, high, t.n(side))
         else:
@@ -296,7 +296,8 @@ class Rectangular(Tank, name="tank/rectangular"):
         t.add("shell", extrude(rounded_rectangle(w, d, 0.06, 4), base, base + h))
         t.at(0.1 * w).add("manway", cylinder(0.09, base + h, base + h + 0.04, t.n(0.09)), of="rubber")
         if self.caged:
-            spots = [(x, y) for x in np.linspace(-w / 2 - 0.01, w / 2 + 0.01, 6) for y in (-d / 2 - 0.01, d / 2 + 0.01)]
+            spots = [(x, s * (d / 2 + 0.01)) for x in np.linspace(0.06 - w / 2, w / 2 - 0.06, 6) for s in BOTH]
+            spots += [(s * (w / 2 + 0.01), y) for y in np.linspace(0.06 - d / 2, d / 2 - 0.06, 4) for s in BOTH]
             posts = [rod((x, y, base), (x, y, base + h + 0.02), 0.009, 8) for x, y in spots]
             outer, inner = (
                 rounded_rectangle(w + 0.04, d + 0.04, 0.06, 3),

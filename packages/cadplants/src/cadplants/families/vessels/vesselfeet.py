@@ -294,7 +294,7 @@ class AngleLegs(_Legs):
         high, low = self.high(drum), drum.low
         leg = extrude(section_angle(side, 0.12 * side), 0.01, high)
         pad = box((0.02, 1.6 * side, 1.3 * (high - low)), (out + 0.008, 0, low + 0.65 * (high - low)))
-        return merge([moved(leg, at(out + 1.38 * side) @ spun("z", 0.75 * np.pi)), pad])
+        return merge([moved(leg, at(out + 0.79 * side) @ spun("z", 0.75 * np.pi)), pad])
 
 
 class PipeLegs(_Legs):
@@ -334,7 +334,7 @@ class BeamLegs(_Legs):
 
     def leg(self, drum: Drum, side: float, out: float, style: ModelingStyle) -> Solid:
         section = section_i(1.2 * side, 1.1 * side, 0.08 * side, 0.1 * side)
-        return moved(extrude(section, 0.01, self.high(drum)), at(out + 0.6 * side))
+        return moved(extrude(section, 0.01, self.high(drum)), at(out + 0.54 * side))
 
 
 class Pads(_Legs):
