@@ -202,7 +202,8 @@ class Motor(Params):
         t.add("shaft", cylinder(0.15 * r, -0.3 * r, 0.04 * length, 12), own=True)
         if self.eye:
             eye = moved(torus(0.15 * r, 0.04 * r, 12, 6), at(1.12 * r, 0, 0.7 * length) @ spun("x", np.pi / 2))
-            t.add("lifting lug", eye, of="fastener", own=True, fine=True)
+            stud = along("x", cylinder(0.06 * r, 0.8 * r, 0.97 * r, 8), 0, 0, 0.7 * length)
+            t.add("lifting lug", eye, stud, of="fastener", own=True, fine=True)
 
     def _frame(self, r: float, length: float, style: ModelingStyle) -> Solid:
         """The motor without cover and boxes, from 0 to 0.8 of its length."""

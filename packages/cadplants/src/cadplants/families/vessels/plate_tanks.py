@@ -204,7 +204,7 @@ class Drums(Tank, name="tank/drums", weight=0.9):
         """A drum with a tap on a cradle."""
         axis, square = 0.65, rounded_rectangle(0.04, 0.04, 0.0)
         self._drum(t.at(-0.44, 0, axis).along("x"))
-        rails = [bar((0, s * 0.3, 0.01), (0, s * 0.16, axis - 0.245), square, (1, 0, 0)) for s in BOTH]
+        rails = [bar((0, s * 0.3, 0.0067), (0, s * 0.16, axis - 0.245), square, (1, 0, 0)) for s in BOTH]
         for x in (-0.25, 0.25):
             apart(t.at(x), "saddle", *rails, box((0.04, 0.5, 0.04), (0, 0, 0.15)))
         tap = along("x", cylinder(0.014, 0.42, 0.53, 10), 0, 0, axis + 0.18)

@@ -407,6 +407,7 @@ class Moulded(Tank, name="tank/moulded plastic"):
             wall += outline(r, z, wide, z + 0.2 * pitch, wide, z + 0.6 * pitch, r, z + 0.8 * pitch)
         top = wall[-1][1] + 0.3 * pitch
         wall += [(f * r, top + g * shoulder) for f, g in ((1, 0), (0.96, 0.4), (0.8, 0.75), (0.4, 1))]
+        t = t.at(0, 0, 0.01) if self.bunded else t
         t.add("shell", turned(wall, n))
         t.at(0, 0, top + shoulder).extend(self.lid.parts(t.style, min(0.25, 0.38 * r), 0.0, 0.02))
         drum = Drum(r, 0.0, top, n)
