@@ -108,7 +108,7 @@ class Convector(_Radiator, name="radiator/convector"):
         _valve(t, x, -y, z, -1)
         t.add("pipe", rope([(x + 0.02, y, z), (x, y, z), (x, y, 0)], 0.0075, 8))
         if self.footed:
-            t.add("bracket", *(box((0.04, 0.9 * d, low + 0.01), (s * 0.35 * w, 0, (low + 0.01) / 2)) for s in BOTH))
+            t.add("bracket", *(box((0.04, d - sheet, low + 0.01), (s * 0.35 * w, 0, (low + 0.01) / 2)) for s in BOTH))
         else:
             t.extend([wall_behind(w + 0.6, 1.2, d / 2)])
         return t.model(kind="convector")
@@ -212,7 +212,8 @@ class Plinth(_Radiator, name="radiator/plinth", weight=0.8):
             top, xs = low + tall + 0.003, np.arange(-w / 2 + 0.02, w / 2, 0.03)
             slats = [box((0.018, deep + 0.03, 0.006), (x, middle, top)) for x in xs]
             t.add(_RAD, *slats, *(box((w, 0.012, 0.006), (0, y, top)) for y in (0.0, deep)), of="clamp")
-        foot = [box((0.03, deep + 0.02, low + 0.006), (0, middle, (low + 0.006) / 2))]
+        rest = z0 - (0.034 if self.flat else 0.0115)
+        foot = [box((0.03, deep + 0.02, rest), (0, middle, rest / 2))]
         foot.append(box((0.08, deep + 0.08, 0.005), (0, middle, 0.0025)))
         t.add("bracket", *(moved(merge(foot), at(s * 0.36 * w)) for s in BOTH))
         _valve(t, w / 2 + 0.074, middle, z0, 1)
@@ -304,7 +305,7 @@ class CoolingTower(_Exchanger, name="heat exchanger/cooling tower"):
         post, x = (0.06, 0.06, h - 0.34), r - 0.03
         casing = [box((2 * r, 2 * r, 0.45 * h), (0, 0, low + 0.765 * h))]
         casing += [box(post, (sx * x, sy * x, low + 0.34 + (h - 0.35) / 2)) for sx, sy in corners]
-        slat, zs = moved(box((1.9 * r, 0.12, 0.01)), spun("x", 0.8)), np.linspace(low + 0.42, low + 0.52 * h, 6)
+        slat, zs = moved(box((2 * r - 0.1, 0.12, 0.01)), spun("x", 0.8)), np.linspace(low + 0.42, low + 0.52 * h, 6)
         louvres = [moved(slat, spun("z", q * np.pi / 2) @ at(0, -r + 0.06, float(z))) for q in range(4) for z in zs]
         feet = [box((0.15, 0.15, low + 0.001), (sx * 0.95 * r, sy * 0.95 * r, low / 2)) for sx, sy in corners]
         return box((2.1 * r, 2.1 * r, 0.35), (0, 0, low + 0.175)), casing, louvres, feet

@@ -101,6 +101,7 @@ class LevelGauge(Params):
         if self.glass:
             spots = ((0.022, 0.022), (0.022, -0.022), (-0.022, 0.0))
             guards = [rod((x, y, low - 0.04), (x, y, high + 0.04), 0.004, 6) for x, y in spots]
+            guards += [cylinder(0.034, z, z + 0.008, 12) for z in (low - 0.04, high + 0.032)]
             t.at(out).add("sight glass", tube, of="dial", own=True)
             t.at(out).add("level gauge", *guards, own=True)
             return t.parts

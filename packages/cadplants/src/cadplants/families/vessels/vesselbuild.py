@@ -20,6 +20,7 @@ from cadplants.families.vessels.vessel_fittings import (
     fall,
     head,
     head_height,
+    head_outline,
     lug,
     mouth,
     mouth_reach,
@@ -150,7 +151,7 @@ class _WithManway(_Upright):
     height: float = between(0.35, 0.6, "of the manway over the shell's lower rim / height of the shell")
 
     def finish(self, t: Table, drum: Drum, apex: float) -> None:
-        pose = drum.side(5.0, drum.low + (drum.high - drum.low) * self.height)
+        pose = drum.side(4.17, drum.low + (drum.high - drum.low) * self.height)
         t.moved(pose).extend(self.manway.parts(t.style, self.opening, drum.r, drum.dip))
 
 
@@ -185,7 +186,8 @@ class _WithEyes(_WithLugs):
     lug: str = among(("eyebolt",), "how its lifting lugs are built")
 
     def finish(self, t: Table, drum: Drum, apex: float) -> None:
-        size, x, drop = self.wide + 0.06 * drum.r, 0.3 * drum.r, 0.04 * drum.r
+        size, x, shape = self.wide + 0.06 * drum.r, 0.45 * drum.r, np.array(head_outline(self.upper, drum.r))[::-1]
+        drop = shape[0, 1] - np.interp(x, *shape.T)
         boss = cylinder(0.5 * size, apex - 0.05 * drum.r - 0.02, apex + 0.012, 12)
         for k in range(self.lugs):
             spot = t.spun("z", 2 * np.pi * k / self.lugs).at(x, 0, -drop)
@@ -257,7 +259,7 @@ class _Lying(Tank, weight=0.7):
             pose = lay @ at(0, 0, length + head_height(self.ends, r))
             ports += branch(t, "plain", self.end, pose, 0.0, 0.02 * r)
         if self.lug != "none":
-            for z, turn in ((0.12 * length, 0.35), (0.88 * length, -0.35)):
+            for z, turn in ((0.05 * length, 0.6), (0.95 * length, -0.6)):
                 pose = lay @ drum.side(np.pi + turn, z)
                 t.moved(pose).extend(lug(self.lug, 0.08 + 0.06 * r, t.style, r, drum.dip))
         return t.model(kind="tank", ports=ports)

@@ -410,7 +410,7 @@ def ladder(x: float, low: float, high: float, style: ModelingStyle, caged: bool,
     n, wide = max(6, min(10, style.round(0.02))), 0.4
     solids = [rod((x, s * wide / 2, low), (x, s * wide / 2, high), 0.02, n) for s in BOTH]
     solids += [rod((x, -wide / 2, z), (x, wide / 2, z), 0.011, 6) for z in np.arange(low + 0.25, high - 0.05, 0.28)]
-    for z in np.arange(low + 0.4, high - 0.9, 1.5):
+    for z in np.linspace(low + 0.4, high - 1.1, max(2, int((high - low) / 1.5))):
         solids += [box((spacers, 0.05, 0.01), (x - spacers / 2, s * wide / 2, z)) for s in BOTH]
     if caged and high - low > 2.8:
         a = np.linspace(-np.pi / 2, np.pi / 2, 9)
