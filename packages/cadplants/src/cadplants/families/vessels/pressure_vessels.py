@@ -151,9 +151,9 @@ class Mixer(Tank, name="tank/open mixer", weight=0.7):
         up.add("shaft", cylinder(0.02 + 0.01 * r, deep, z + 0.1, 10), own=True)
         blade = moved(box((0.45 * r, 0.12 * r, 0.012), (0.22 * r, 0, 0)), spun("x", 0.6))
         up.at(0, 0, deep + 0.05 * r).add("impeller", around(blade, self.blades), own=True)
-        up.moved(drum.side(0.9, 0.12)).extend(mouth("plain", 40, 0.15, t.style, r, drum.dip))
+        ports = branch(t, "plain", 40, lying.side(0.9, low + 0.12), r, drum.dip)
         t.extend(self.legs.parts(lying, t.style))
-        return t.model(kind="mixing tank")
+        return t.model(kind="mixing tank", ports=ports if low > 0.5 else ())
 
 
 class Bullet(Tank, name="tank/bullet", weight=0.7):
