@@ -219,7 +219,7 @@ class Sphere(Tank, name="tank/pressure sphere", weight=0.7):
         ports = branch(t, "plain", 80, at(0, 0, z + r), 0.0, 0.05 * r, 0.1)
         tilt = max(0.41, float(np.arcsin(0.45 / r)))
         tilted = middle.spun("y", tilt).at(0, 0, r)
-        tilted.extend(self.manway.parts(t.style, 0.22, 0.0, 0.1 * r))
+        tilted.extend(self.manway.parts(t.style, min(0.22, 0.2 * r), 0.0, 0.1 * r))
         return t.model(kind="pressure sphere", ports=ports)
 
 
