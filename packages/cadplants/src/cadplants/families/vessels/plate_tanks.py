@@ -306,9 +306,9 @@ class Buried(Tank, name="tank/buried", weight=0.7):
     bed: float = between(0.12, 0.3, "thickness of the bed", "m")
     ribs: int = whole(4, 9, "ribs round the shell")
     ends: str = among(("torispherical", "shallow", "2:1"), "heads at its ends")
-    straps: int = whole(2, 3, "straps")
     spots: int = among((1, 2), "towers", when=lambda p: _length(p.radius, p.slender) > 2, otherwise=1)
     towers: tuple[_Tower, ...] = several(made(_Tower), lambda p: p.spots, "towers")
+    straps: int = whole(2, 3, "straps", when=lambda p: p.spots > 1, otherwise=2)
 
     def build(self, t: Table) -> Model:
         r, n, length = self.radius, sides(t.style, self.radius), _length(self.radius, self.slender)
@@ -326,9 +326,9 @@ class Buried(Tank, name="tank/buried", weight=0.7):
         t.add("foundation", box((wide, 2.2 * r, bed), (0, 0, bed / 2)))
         strap = along("x", ring(0.985 * r, 1.012 * r, -0.03, 0.03, n), 0, 0, axis)
         anchors = [rod((0, s * r, bed - 0.01), (0, s * r, axis), 0.012, 8) for s in BOTH]
-        for x in np.linspace(-0.3, 0.3, self.straps) * length:
+        for x in np.linspace(-0.45, 0.45, self.straps) * length:
             t.at(x).add("clamp", strap, *anchors)
-        for f, tower in zip((0.0,) if self.spots == 1 else (-0.28, 0.28), self.towers, strict=True):
+        for f, tower in zip((0.0,) if self.spots == 1 else (-0.24, 0.24), self.towers, strict=True):
             tower.build(middle.at(f * length), r)
         for s in BOTH:
             out = middle.at(s * (length / 2 + 0.75 * head_height(self.ends, 0.97 * r)), 0, 0.55 * r)
