@@ -323,14 +323,14 @@ class Sphere(Tank, name="tank/sphere", weight=0.7):
     seamed: bool = chance(0.5, "a seam round its middle")
 
     def build(self, t: Table) -> Model:
-        r, axis, n = self.radius, self.radius + self.clear, t.n(self.radius)
+        r, axis, n = self.radius, self.stretch * self.radius + self.clear, t.n(self.radius)
         t.at(0, 0, axis).add("shell", ball(r, n, self.stretch))
         if self.seamed:
             t.add("shell", ring(0.99 * r, 1.03 * r, axis - 0.02, axis + 0.02, n))
         for k in range(3):
             leg = rod((r, 0.0, 0.01), (0.75 * r, 0.0, axis - 0.3 * r), 0.02, 10)
             apart(t.spun("z", 2 * np.pi * k / 3), "tank leg", leg, moved(cylinder(0.05, 0.0, 0.015, 12), at(r)))
-        apart(t, "nozzle", rod((0, 0, axis - 1.3 * r), (0, 0, axis), 0.017, 10))
+        apart(t, "nozzle", rod((0, 0, self.clear - 0.1), (0, 0, axis), 0.017, 10))
         return t.model(kind="expansion vessel")
 
 
