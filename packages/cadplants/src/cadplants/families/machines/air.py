@@ -232,7 +232,7 @@ class Axial(_Blower, name="blower/axial"):
     high: float = between(2.0, 2.6, "height of its axis, where it hangs", "m", when=lambda p: p.hung)
     blades: int = whole(4, 8, "blades")
     frame: str = among(("cast", "smooth", "square"), "how the motor's frame is made")
-    motor: Motor = driven(Motor, "motor")
+    motor: Motor = driven(Motor, "motor", bare=True)
     guarded: bool = chance(0.6, "a wire guard in front")
 
     def build(self, t: Table) -> Model:
@@ -247,7 +247,7 @@ class Axial(_Blower, name="blower/axial"):
         blade = box((0.6 * r, 0.22 * r, 0.015 * r + 0.002), (0.63 * r, 0, 0))
         blades = around(moved(blade, at(0, 0, -0.35 * long) @ spun("x", 0.6)), self.blades)
         lying.add("impeller", cylinder(0.36 * r, -0.43 * long, -0.25 * long, n), blades, own=True)
-        self.motor.build(level.at(-0.25 * long).moved(LYING), 0.34 * r, 0.85 * long, bare=True)
+        self.motor.build(level.at(-0.25 * long).moved(LYING), 0.34 * r, 0.85 * long)
         terminals = box((0.25 * r, 0.35 * r, 0.25 * r), (0, 0.7 * r, 0.7 * r))
         level.bundled("motor").add("terminal box", terminals, of="electrical", own=True)
         if self.guarded:

@@ -207,13 +207,13 @@ class Electronic(
         screen = box((0.9 * r, 0.6 * r, 0.04 * r), (0, 0, y + tall))
         knob = moved(cylinder(0.16 * r, y + tall, y + tall + 0.06 * r, 14), at(0, 0.55 * r))
         gland = merge([cylinder(0.09 * r, 0, 0.35 * r, 8), hexagon(0.26 * r, 0, 0.12 * r)])
-        gland = along("-y", gland, 0, -0.9 * r, y + 0.35 * tall)
+        gland = along("-y", gland, 0, -(0.94, 1.29, 1.0)[self.head] * r, y + 0.35 * tall)
         front.add("terminal box", *head, screen, knob, gland, of="rubber")
         return t.model(length, kind="circulator")
 
 
 class Duckfoot(Device, name="pump/duckfoot", group=PUMP, label="pump", bundle=CASING, sizes=(50, 65, 80, 100, 150)):
-    """A sewage pump in a sump: coupled to a duckfoot bend by its claw, two guide rails, riser, chain, power cable."""
+    """A sewage pump in a sump: coupled to a duckfoot bend by its claw, two guide rails, a power cable."""
 
     tall: float = between(2.2, 3.6, "height of the motor / radius of the casing")
     fins: int = among((8, 12, 16), "fins of the motor")

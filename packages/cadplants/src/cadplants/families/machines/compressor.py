@@ -184,7 +184,7 @@ class Pots(Params):
             pot += outline(r, low + 0.7 * h, 1.05 * r, low + 0.7 * h, 1.05 * r, low + 0.74 * h, r, low + 0.74 * h)
             pot += outline(0.95 * r, low + 0.85 * h, 0.6 * r, low + h)
             up.add(_NAME, turned(pot, t.n(r)), of="rubber")
-            feet = [moved(cylinder(0.02, 0.03, 0.08, 10), at(x, y)) for x, y in corners(r, r)]
+            feet = [moved(cylinder(0.02, 0.03, 0.084, 10), at(x, y)) for x, y in corners(r, r)]
             up.add(_NAME, box((2.4 * r, 2.4 * r, 0.008), (0, 0, 0.0865)), *feet, of="steel")
             suction = [(0.9 * r, 0, low + 0.4 * h), (1.5 * r, 0, low + 0.4 * h), (1.5 * r, 0, 0.2 + h)]
             discharge = [(0, 0, 0.08 + h), (0, 0, 0.15 + h), (0, 0.9 * r, 0.2 + h)]

@@ -236,7 +236,7 @@ class Triplex(Pump, name="pump/triplex plunger", sizes=(40, 50, 65, 80)):
         level.at(0.1 * s).along("y").add("shaft", shaft)
         m, aside = 0.75 * s, level.at(x, y - 0.05 * s)
         self.motor.build(aside.spun("x", np.pi / 2).spun("z", np.pi / 2), m, 2.6 * m, axis - seat)
-        base(t, self.bed, -1.9 * s, x + 1.2 * m, 1.6 * wide, seat, [-1.3 * s, 0.0, x])
+        base(t, self.bed, -1.9 * s, x + 1.2 * m, 1.6 * wide, seat, [-1.3 * s, 0.0, x - 0.85 * m, x + 0.85 * m])
         return t.model(ports=ports, kind="plunger pump")
 
     def _pump(self, t: Table, s: float, axis: float, wide: float) -> list[Port]:

@@ -129,7 +129,7 @@ class TerminalBox(Params):
         z, wide, deep = self.place * length, self.wide * r, self.deep * r
         long, top = self.long * wide, 0.8 * r + deep
         case = extrude(rounded_rectangle(wide, long, 0.12 * wide, 2), 0.0, deep)
-        case = moved(case, at(0.8 * r, 0, z) @ LYING @ spun("z", np.pi / 2))
+        case = moved(case, at(0.8 * r, 0, z) @ LYING)
         gland = merge([hexagon(0.22 * r, 0, 0.07 * r), cylinder(0.08 * r, 0, 0.2 * r, 8)])
         glands = [along("y", gland, 0.8 * r + 0.55 * deep, long / 2, z + s * 0.22 * wide) for s in BOTH]
         if lid == "round":
@@ -147,21 +147,26 @@ def _air_cooled(p: Any) -> bool:
     return bool(p.frame != "cooled")
 
 
+def _fitted(p: Any) -> bool:
+    return _air_cooled(p) and not p.bare
+
+
 class Motor(Params):
     """An electric motor (IEC 60072 and NEMA MG 1 proportions)."""
 
     standing: bool = given(False, "whether it stands on feet rather than hangs on its flange")
+    bare: bool = given(False, "whether it is without its terminal box and what else is on it")
     fine: bool = given(True, "whether it is modelled with all its fins")
     frame: str = among(MOTORS, "how its frame is made")
     cooler: float = between(0.5, 0.9, "height of the cooler on it / radius", when=lambda p: p.frame == "cooled")
     cover: str = among(
         lambda p: _COVERS[:4] if p.standing else _COVERS, "form of its fan cover", when=_air_cooled, otherwise=""
     )
-    turn: int = among((0, 0, 0, 1, -1), "quarter turns of its terminal box", when=_air_cooled, otherwise=0)
+    turn: int = among((0, 0, 0, 1, -1), "quarter turns of its terminal box", when=_fitted, otherwise=0)
     lid: str = among(
         ("plain", "inclined", "glands", "round"),
         "form of its terminal box",
-        when=lambda p: p.frame not in ("cooled", "ex"),
+        when=lambda p: _fitted(p) and p.frame != "ex",
         otherwise="round",
     )
     fins: int = among(
@@ -170,11 +175,11 @@ class Motor(Params):
         when=lambda p: p.frame == "ex" or (p.frame == "cast" and p.fine),
         otherwise=3,
     )
-    terminals: TerminalBox = nested(TerminalBox, "terminal box", when=_air_cooled)
+    terminals: TerminalBox = nested(TerminalBox, "terminal box", when=_fitted)
     pads: bool = chance(0.5, "its feet are pads with webs", when=lambda p: p.standing and _air_cooled(p))
-    eye: bool = chance(0.35, "a lifting eye sits on it", when=_air_cooled)
+    eye: bool = chance(0.35, "a lifting eye sits on it", when=_fitted)
 
-    def build(self, t: Table, r: float, length: float, feet: float = 0.0, bare: bool = False) -> None:
+    def build(self, t: Table, r: float, length: float, feet: float = 0.0) -> None:
         """Puts it down about z from 0, its fan end up, its top towards +x.
 
         Args:
@@ -182,7 +187,6 @@ class Motor(Params):
             r: radius over the fins [m].
             length: with the fan cover [m].
             feet: height of the axis over its seat; 0 for one mounted by its flange [m].
-            bare: without its terminal box and what else is on it.
         """
         t = t.bundled("motor")
         if self.frame == "cooled":
@@ -191,14 +195,15 @@ class Motor(Params):
             frame = [self._frame(r, length, t.style), *(self._feet(r, length, feet) if feet else [])]
             t.add("motor", *frame, own=True)
             t.add("motor fan cover", self._hood(r, length, t.style), of="motor", own=True)
-            if bare:
+            if self.bare:
                 return
             terminals = self.terminals.solid(self.lid, r, length, t.style)
             t.spun("z", self.turn * np.pi / 2).add("terminal box", terminals, own=True)
         t.add("shaft", cylinder(0.15 * r, -0.3 * r, 0.04 * length, 12), own=True)
         if self.eye:
             eye = moved(torus(0.15 * r, 0.04 * r, 12, 6), at(1.12 * r, 0, 0.7 * length) @ spun("x", np.pi / 2))
-            t.add("lifting lug", eye, of="fastener", own=True, fine=True)
+            stud = along("x", cylinder(0.06 * r, 0.8 * r, 0.97 * r, 8), 0, 0, 0.7 * length)
+            t.add("lifting lug", eye, stud, of="fastener", own=True, fine=True)
 
     def _frame(self, r: float, length: float, style: ModelingStyle) -> Solid:
         """The motor without cover and boxes, from 0 to 0.8 of its length."""
@@ -225,10 +230,11 @@ class Motor(Params):
         if self.frame == "drip":
             bell = turned(outline(0.93 * r, 0.72 * length, 0.93 * r, high, 0.5 * r, high), n)
             bars = [
-                moved(around(box((0.06 * r, 0.2 * r, 0.08 * length), (0.93 * r, 0, z * length)), 10), spun("z", 0.3))
-                for z in (0.13, 0.75)
+                moved(around(box((0.06 * r, 0.2 * r, 0.12 * length), (0.93 * r, 0, z * length)), 10), spun("z", 0.3))
+                for z in (0.13, 0.7)
             ]
-            return merge([nose, cylinder(r, 0.18 * length, 0.68 * length, n), bell, *bars])
+            drums = [cylinder(r, 0.18 * length, 0.68 * length, n), cylinder(0.8 * r, 0.05 * length, 0.75 * length, n)]
+            return merge([nose, *drums, bell, *bars])
         ribs = around(box((0.2 * r, 0.06 * r, high - low), (0.92 * r, 0, (low + high) / 2)), self.fins)
         lips = [cylinder(1.06 * r, z * length, (z + 0.035) * length, n) for z in (0.09, 0.125, 0.75)]
         heads = around(hexagon(0.12 * r, 0.07 * length, 0.092 * length), 8, 0.96 * r)

@@ -38,7 +38,7 @@ class SplitCase(Pump, name="pump/split case", sizes=(65, 80, 100, 125, 150, 200,
     wide: float = between(1.0, 1.25, "radius of the casing / that by its nominal size")
     seat: float = between(0.1, 0.22, "height of the base frame", "m")
     drop: float = among((0.0, 0.25), "mouths below the shaft / radius")
-    motor: float = between(0.8, 1.2, "radius of the motor / of the casing, where there is room")
+    motor: float = between(0.8, 1.14, "radius of the motor / of the casing")
     frame: str = weighted(
         "how the motor's frame is made", when=lambda p: p.dn > 150, otherwise="other", cooled=0.5, other=0.5
     )
@@ -69,7 +69,7 @@ class SplitCase(Pump, name="pump/split case", sizes=(65, 80, 100, 125, 150, 200,
         t.at(0, 0, axis).add(CASING, along("x", bearing), along("-x", bearing), *arms)
         end = 2.5 * half
         lying.add("shaft", cylinder(0.12 * r, -2.28 * half, end, 12))
-        m = min(0.85 * (axis - seat), self.motor * r)
+        m = self.motor * r
         far, seats = self.drive.build(t, end, axis, seat, m)
         wide = 2.5 * max(m, 0.8 * r)
         base(t, self.bed, -2.0 * half, far, wide, seat, [-0.7 * half, 0.7 * half, *seats])
@@ -88,7 +88,7 @@ class BackPullOut(Pump, name="pump/back pull-out", sizes=(40, 50, 65, 80, 100, 1
     upright: bool = chance(0.5, "the discharge is over the shaft, not aside")
     long: float = between(1.6, 2.4, "length of the bearing bracket / radius")
     smooth: bool = chance(0.5, "the bearing bracket has no ribs")
-    motor: float = between(0.8, 1.3, "radius of the motor / of the casing, where there is room")
+    motor: float = between(0.8, lambda p: min(1.3, 0.85 * (1.08 + p.growth)), "radius of the motor / of the casing")
     drive: Train = driven(Train, "coupling, guard and motor")
     bed: str = among(("grid", "grid", *BASES), "form of the base frame")
 
@@ -118,7 +118,7 @@ class BackPullOut(Pump, name="pump/back pull-out", sizes=(40, 50, 65, 80, 100, 1
         t.add(CASING, along("x", bracket, 0, 0, axis), stay, oiler)
         shaft = cylinder(0.12 * r, back + 0.1 * long, back + 1.15 * long, 12)
         t.at(0, 0, axis).along("x").add("shaft", shaft)
-        m = min(0.85 * (axis - seat), self.motor * r)
+        m = self.motor * r
         far, seats = self.drive.build(t, back + 1.12 * long, axis, seat, m)
         base(t, self.bed, -0.6 * half, far, 2.6 * max(m, 0.8 * r), seat, [0.0, back + 0.85 * long, *seats])
         return t.model(ports=(first, second), kind="centrifugal pump")
@@ -252,7 +252,7 @@ class RingSection(Pump, name="pump/ring section", sizes=(40, 50, 65, 80, 100)):
     stages: int = whole(3, 8, "stages")
     step: float = between(0.3, 0.5, "length of a stage / radius")
     level: bool = chance(0.5, "the suction looks aside, not up")
-    motor: float = between(1.0, 1.35, "radius of the motor / of the stages, where there is room")
+    motor: float = between(1.0, 1.35, "radius of the motor / of the stages")
     drive: Train = driven(Train, "coupling, guard and motor")
     bed: str = among(BASES, "form of the base frame")
 
@@ -283,7 +283,7 @@ class RingSection(Pump, name="pump/ring section", sizes=(40, 50, 65, 80, 100)):
         start = where + 1.3 * r
         t.at(0, 0, axis).add(CASING, along("x", house, where), along("-x", house, -where))
         lying.add("shaft", cylinder(0.13 * r, where, start, 12))
-        m = min(0.9 * (axis - seat), self.motor * r)
+        m = self.motor * r
         far, seats = self.drive.build(t, start, axis, seat, m)
         base(t, self.bed, -where - 0.5 * r, far, 2.5 * m, seat, [-mid, mid, *seats])
         return t.model(ports=(first, second), kind="multistage pump")

@@ -72,7 +72,8 @@ class RibbedMotor(Params):
             t.add("motor", *(box(foot, (-(feet + 0.6 * r) / 2, 0, z * length)) for z in (0.2, 0.66)), own=True)
         if self.eye:
             eye = moved(torus(0.14 * r, 0.035 * r, 12, 6), at(1.1 * r, 0, 0.62 * length) @ spun("x", np.pi / 2))
-            t.add("lifting lug", eye, of="fastener", own=True, fine=True)
+            stud = along("x", cylinder(0.06 * r, 0.8 * r, 0.96 * r, 8), 0, 0, 0.62 * length)
+            t.add("lifting lug", eye, stud, of="fastener", own=True, fine=True)
 
 
 def _plate(kind: int, length: float, width: float, height: float) -> list[Solid]:

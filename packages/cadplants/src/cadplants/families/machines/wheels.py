@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from cadplants.builder.device import Device, families_of
-from cadplants.builder.draws import one_of
+from cadplants.builder.draws import of_form, one_of
 from cadplants.builder.params import Params, among, between, chance, given, nested, several, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.machines.drives import (
@@ -29,10 +29,10 @@ class Wheel(Params):
     """An impeller."""
 
     form: str = given("open", "how it is made")
-    vanes: int = whole(3, 8, "vanes")
-    wide: float = between(0.18, 0.4, "width of the vanes / radius")
-    wrap: float = between(0.8, 1.9, "how far a vane goes round", "rad")
-    blades: int = whole(3, 5, "blades", when=lambda p: p.form == "propeller")
+    vanes: int = whole(3, 8, "vanes", when=of_form("open", "closed", "double", "vortex"))
+    wide: float = between(0.18, 0.4, "width of the vanes / radius", when=of_form("open", "closed", "double", "vortex"))
+    wrap: float = between(0.8, 1.9, "how far a vane goes round", "rad", when=of_form("open", "closed", "double"))
+    blades: int = whole(3, 5, "blades", when=of_form("propeller"))
 
     def solid(self, r: float, style: ModelingStyle) -> tuple[Solid, float]:
         """The wheel about z, its hub from 0 up; and its height [m]."""

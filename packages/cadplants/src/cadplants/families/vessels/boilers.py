@@ -49,7 +49,7 @@ class FireTube(_Boiler, name="boiler/fire-tube"):
         bands = [ring(r - 0.01, 1.008 * r + 0.002, x - 0.03, x + 0.03, n) for x in np.linspace(-0.35, 0.35, 3) * length]
         lying.along("x").add("boiler", cylinder(r, -end, end, n), *bands)
         door = turned(outline(0.92 * r, end, 0.92 * r, end + 0.18, 0.86 * r, end + 0.22), n)
-        hinges = [box((0.05, 0.12, 0.1), (-end - 0.1, 0.95 * r, s * 0.4 * r)) for s in BOTH]
+        hinges = [box((0.05, 0.12, 0.1), (-end - 0.1, 0.84 * r, s * 0.4 * r)) for s in BOTH]
         burner = along("-x", cylinder(0.3 * r, end + 0.2, end + 0.27, n), 0, 0, -0.25 * r)
         lying.add("boiler", along("-x", door), *hinges, burner, of="electrical")
         box_end = end + 0.2 * r

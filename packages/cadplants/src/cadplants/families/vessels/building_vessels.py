@@ -9,7 +9,7 @@ from cadplants.builder.params import among, between, chance, several, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.vessels.vessel import Tank, apart
 from cadplants.families.vessels.vessel_fittings import Drum, head_height, sides
-from cadplants.families.vessels.vesselbuild import put_vessel
+from cadplants.families.vessels.vesselbuild import branch, put_vessel
 from cadplants.family import Model
 from cadplants.mesh_ops import Solid, moved, sweep
 from cadplants.polygon import rounded_rectangle
@@ -141,7 +141,7 @@ class Hydrophore(Tank, name="tank/hydrophore", weight=0.8):
 
 
 class Buffer(Tank, name="tank/insulated buffer"):
-    """An insulated buffer or hot-water cylinder: a foam jacket with a seam strip, a lid, rosettes, sleeves, a hatch."""
+    """An insulated buffer or hot-water cylinder: a foam jacket with a seam strip, a lid, connections in rosettes."""
 
     radius: float = between(0.28, 0.6, "of the jacket", "m")
     tall: float = between(1.1, 2.1, "height of the jacket", "m")
@@ -153,6 +153,7 @@ class Buffer(Tank, name="tank/insulated buffer"):
     columns: tuple[int, ...] = several(
         lambda rng, _: int(rng.integers(1, 3)), lambda p: p.levels, "connections on each height"
     )
+    flanged: bool = chance(0.6, "its connections are flanged, not threaded")
     hatched: bool = chance(0.6, "a hatch")
     dials: int = whole(0, 2, "thermometers")
     legs: bool = chance(0.6, "three feet rather than a ring", when=lambda p: p.foot > 0)
@@ -165,10 +166,13 @@ class Buffer(Tank, name="tank/insulated buffer"):
         lid = cap if self.flat else dome(1.01 * r, 0.12, 0.0, n)
         t.at(0, 0, drum.high).add("dished head", lid, of="rubber" if self.dark else "dial")
         t.spun("z", 2.4).add("shell", box((0.012, 0.06, tall), (r + 0.004, 0, foot + tall / 2)), of="electrical")
-        stub = [cylinder(0.021, -0.05, 0.06, 12), ring(0.021, 0.045, -drum.dip, 0.006, 16)]
+        ports, rosette, stub = [], ring(0.021, 0.045, -drum.dip, 0.006, 16), cylinder(0.021, -0.05, 0.06, 12)
         for z, count in zip(np.linspace(0.15, 0.9, self.levels) * tall + foot, self.columns, strict=True):
-            for a in (self.side, self.side + 0.5)[:count]:
-                apart(t.moved(drum.side(a, float(z))), "nozzle", *stub, of="trim")
+            for pose in [drum.side(a, float(z)) for a in (self.side, self.side + 0.5)[:count]]:
+                apart(t.moved(pose), "nozzle", rosette, *([] if self.flanged else [stub]), of="trim")
+                if self.flanged:
+                    port = branch(t, "plain", 32, pose, r, drum.dip)
+                    ports += port if z > 0.6 else []
         if self.hatched:
             hatch = [cylinder(0.11, -drum.dip - 0.02, 0.03, 24), around(hexagon(0.024, 0.03, 0.045), 8, 0.09)]
             apart(t.moved(drum.side(4.7, foot + 0.25 * tall)), "manway", *hatch, of="flange")
@@ -178,7 +182,7 @@ class Buffer(Tank, name="tank/insulated buffer"):
             apart(t, "tank leg", around(cylinder(0.035, 0.0, foot + 0.002, 10), 3, 0.75 * r), of="rubber")
         elif foot:
             apart(t, "skirt", ring(0.85 * r, 0.93 * r, 0.0, foot + 0.002, n), of="steel")
-        return t.model(kind="buffer tank")
+        return t.model(kind="buffer tank", ports=ports[:: max(1, len(ports) - 1)])
 
 
 class Bottles(Tank, name="tank/gas bottles", weight=0.8):

@@ -9,6 +9,7 @@ from cadplants.builder.params import among, between, chance, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.valves.valve import bolt_circle, flanged_body
 from cadplants.families.vessels.exchangers import Equipment
+from cadplants.families.vessels.radiators import wall_behind
 from cadplants.families.vessels.vessel import head_profile, nozzle
 from cadplants.family import Model, Port
 from cadplants.flange import nut_room, plate_thickness
@@ -70,11 +71,15 @@ class Plate(_Exchanger, name="heat exchanger/plate", weight=1.5):
     width: float = between(0.25, 0.6, "of the plates", "m")
     tall: float = between(0.7, 1.6, "height of the plates", "m")
     stack: float = between(0.2, 0.8, "length of the stack", "m")
-    size: int = among((40, 50, 65, 80), "nominal size of the mouths, where the plates are wide enough", "mm")
+    size: int = among(
+        lambda p: tuple(dn for dn in (40, 50, 65, 80) if FLANGES[dn].outer < 0.55 * p.width),
+        "nominal size of the mouths",
+        "mm",
+    )
 
     def build(self, t: Table) -> Model:
         wide, tall, stack, thick, low = self.width, self.tall, self.stack, 0.035, 0.05
-        high, end, dn = low + tall, stack + 0.45, self.size if FLANGES[self.size].outer < 0.55 * wide else 25
+        high, end, dn = low + tall, stack + 0.45, self.size
         ends = [box((thick, wide * 1.15, high), (0, 0, high / 2))]
         ends.append(box((thick, wide * 1.15, tall), (thick + stack, 0, low + tall / 2)))
         ports = []
@@ -86,9 +91,9 @@ class Plate(_Exchanger, name="heat exchanger/plate", weight=1.5):
             ports.append(Port(looking((-thick / 2 - 0.12, y, low + 0.86 * tall), (-1, 0, 0)), dn))
         t.add(_HEX, *ends, of="valve")
         count = int(np.clip(stack / 0.02, 8, 40))
-        step, sheet = stack / count, (0.6 * stack / count, wide, 0.95 * tall)
-        xs = thick / 2 + (np.arange(count) + 0.5) * step
-        t.add(_HEX, *(box(sheet, (x, 0, low + tall / 2)) for x in xs), of="trim")
+        step, mid = stack / count, low + tall / 2
+        xs, sides = thick / 2 + (np.arange(count) + 0.5) * step, (1.0, 0.97)
+        t.add(_HEX, *(box((step, sides[k % 2] * wide, 0.95 * tall), (x, 0, mid)) for k, x in enumerate(xs)), of="trim")
         rails = [rod((0, 0, z), (end, 0, z), 0.02, 10) for z in (high + 0.02, low - 0.005)]
         t.add(_HEX, *rails, box((0.06, 0.12, high + 0.06), (end, 0, (high + 0.06) / 2)), of="steel")
         spots = [(s * 0.54 * wide, low + f * tall) for s in BOTH for f in (0.15, 0.5, 0.85)]
@@ -134,11 +139,13 @@ class AirCooled(_Exchanger, name="heat exchanger/air cooled"):
         t.add(_HEX, *heads, *(moved(p.solid, spot) for spot in spots for p in mouth), of="tank")
         t.add(_HEX, *(box((0.004, d, h), (x, 0, middle)) for x in np.linspace(-0.45 * w, 0.45 * w, 36)), of="trim")
         blades = around(box((0.3 * small, 0.08, 0.006), (0.2 * small, 0, 0)), 5)
+        hub = cylinder(0.08 * small, top + 0.09, top + 0.22, 16)
         shroud = ring(0.38 * small, 0.42 * small, top + 0.1, top + 0.25, t.n(0.4))
         hood = box((w, d, 0.1), (0, 0, top + 0.05))
-        t.add("blower", hood, shroud, moved(blades, at(0, 0, top + 0.2)), of="clamp")
+        t.add("blower", hood, shroud, hub, moved(blades, at(0, 0, top + 0.2)), of="clamp")
         t.add("column", *(box((0.06, 0.06, top), (sx * (w / 2 + 0.02), sy * d / 2, top / 2)) for sx, sy in CORNERS))
-        return t.model(kind="air cooler")
+        ports = [Port(looking((-w / 2 - 0.16, y, middle), (-1, 0, 0)), 40) for y in (-0.3 * d, 0.3 * d)]
+        return t.model(kind="air cooler", ports=ports)
 
 
 class PanelRadiator(Equipment, name="radiator/panel", label=_RAD, bundle=_RAD, weight=1.2):
@@ -157,7 +164,7 @@ class PanelRadiator(Equipment, name="radiator/panel", label=_RAD, bundle=_RAD, w
         panel = extrude(np.vstack([front, [(w / 2, 0.004), (-w / 2, 0.004)]]), low, low + h)
         t.add(_RAD, *(moved(panel, at(0, k * gap)) for k in range(count)))
         spots = [(x, gap / 2 + j * gap) for x in np.linspace(-0.48 * w, 0.48 * w, 24) for j in range(count - 1)]
-        t.add(_RAD, *(box((0.001, 0.6 * gap, 0.85 * h), (x, y, low + h / 2)) for x, y in spots))
+        t.add(_RAD, *(box((0.001, 0.88 * gap, 0.85 * h), (x, y, low + h / 2)) for x, y in spots))
         if self.covered:
             t.add(_RAD, box((w, deep, 0.012), (0, middle, low + h + 0.006)))
             t.add(_RAD, *(box((0.004, deep, h), (s * w / 2, middle, low + h / 2)) for s in BOTH))
@@ -183,6 +190,9 @@ class ColumnRadiator(Equipment, name="radiator/column", label=_RAD, bundle=_RAD,
                 t.add(_RAD, rod((x, 0, low), (x, 0, top), 0.018, n))
             x, zs = self.width / 2, np.linspace(low + 0.05, top - 0.05, int(self.height / 0.06))
             t.add(_RAD, *(rod((-x, -0.01, z), (x, -0.01, z), 0.011, n) for z in zs if (z * 7) % 1.0 > 0.2))
+            holders = [rod((s * x, 0, z), (s * x, 0.09, z), 0.009, 8) for s in BOTH for z in (low + 0.1, top - 0.1)]
+            t.add("bracket", *holders, of="trim")
+            t.extend([wall_behind(self.width + 0.8, top + 0.4, 0.09)])
             return t.model(kind="radiator")
         pitch, gap, deep, hubs = 0.046, 0.036, (self.columns - 1) * 0.036, (low + 0.02, top - 0.02)
         section = [rod((0, c * gap, low + 0.03), (0, c * gap, top - 0.03), 0.0125, n) for c in range(self.columns)]
@@ -244,7 +254,7 @@ def _burner(t: Table, r: float) -> None:
     motor = turned(outline(0.45 * r, 0.5 * r, 0.45 * r, 1.6 * r, 0.35 * r, 1.7 * r), n)
     control = box((0.8 * r, 0.5 * r, 0.6 * r), (1.1 * r, -0.9 * r, 0.4 * r))
     t.add(_BURNER, along("y", motor, 0.9 * r, 0, 0.15 * r), control, of="motor")
-    x, y, z = 0.5 * r, -0.3 * r, -1.5 * r
+    x, y, z = 0.25 * r, -0.3 * r, -1.5 * r
     t.add(_BURNER, rope([(x, y, -0.8 * r), (x, y, z), (x, -2.5 * r, z)], 0.16 * r, 10), of="pipe")
 
 

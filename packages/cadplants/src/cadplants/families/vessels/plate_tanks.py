@@ -114,7 +114,7 @@ class BracedPlates(Tank, name="tank/braced plates", weight=0.9):
             ports += branch(t, "plain", dn, pose)
         if top > 1.5:
             up = t.at(-0.2 * w, -d / 2 - 0.17).spun("z", -np.pi / 2)
-            up.add("ladder", ladder(0.0, 0.0, top + 0.6, t.style, False, 0.12))
+            up.add("ladder", ladder(0.0, 0.0, top + 0.6, t.style, False, 0.16))
         return t.model(kind="rectangular tank", ports=ports)
 
     def _waves(self) -> Floats:
@@ -132,7 +132,7 @@ class Sectional(Tank, name="tank/sectional panels", weight=0.7):
     deep: int = whole(1, 3, "panels along its depth")
     tiers: int = whole(1, 2, "rows of panels")
     side: float = among(lambda p: (0.5, 1.0) if p.across + p.deep > 5 else (1.0,), "side of a panel", "m")
-    smaller: bool = chance(0.4, "its panels' sides are at most 0.75 m")
+    smaller: bool = chance(0.4, "its panels' sides are at most 0.75 m", when=lambda p: p.side > 0.75)
     base: float = between(0.35, 0.6, "height of its floor", "m")
     joined: bool = chance(0.5, "the walls are one mesh")
     hatch: Manway = nested(MANWAYS["hatch"], "hatch")
@@ -161,7 +161,7 @@ class Sectional(Tank, name="tank/sectional panels", weight=0.7):
             t.add("foundation", box((w + 0.2, 0.2, dwarf), (0, y, dwarf / 2)))
         t.at(w / 2 - p / 2, d / 2 - p / 2, base + h + 0.05).extend(self.hatch.parts(t.style, 0.25))
         up = t.at(-w / 2 + p / 2, -d / 2 - 0.17).spun("z", -half)
-        up.add("ladder", ladder(0.0, 0.0, base + h + 0.7, t.style, False, 0.15))
+        up.add("ladder", ladder(0.0, 0.0, base + h + 0.7, t.style, False, 0.17))
         ports = branch(t, "plain", 80, at(w / 2 + 0.05, -d / 2 + p / 2, base + 0.5 * p) @ spun("y", half))
         return t.model(kind="sectional tank", ports=ports)
 
@@ -186,7 +186,7 @@ class Drums(Tank, name="tank/drums", weight=0.9):
             self._cradle(t)
             return t.model(kind="drum")
         spots = ((-0.31, -0.31), (0.31, 0.31), (0.31, -0.31), (-0.31, 0.31))
-        for (x, y), turn in zip(spots, self.turns, strict=False):
+        for (x, y), turn in zip(spots if self.count > 1 else ((0.0, 0.0),), self.turns, strict=False):
             self._drum(t.at(x, y, self.base).spun("z", turn))
         if self.base == 0.3:
             w = 1.3
@@ -204,7 +204,7 @@ class Drums(Tank, name="tank/drums", weight=0.9):
         """A drum with a tap on a cradle."""
         axis, square = 0.65, rounded_rectangle(0.04, 0.04, 0.0)
         self._drum(t.at(-0.44, 0, axis).along("x"))
-        rails = [bar((0, s * 0.3, 0.01), (0, s * 0.16, axis - 0.245), square, (1, 0, 0)) for s in BOTH]
+        rails = [bar((0, s * 0.3, 0.0067), (0, s * 0.16, axis - 0.245), square, (1, 0, 0)) for s in BOTH]
         for x in (-0.25, 0.25):
             apart(t.at(x), "saddle", *rails, box((0.04, 0.5, 0.04), (0, 0, 0.15)))
         tap = along("x", cylinder(0.014, 0.42, 0.53, 10), 0, 0, axis + 0.18)
@@ -306,9 +306,9 @@ class Buried(Tank, name="tank/buried", weight=0.7):
     bed: float = between(0.12, 0.3, "thickness of the bed", "m")
     ribs: int = whole(4, 9, "ribs round the shell")
     ends: str = among(("torispherical", "shallow", "2:1"), "heads at its ends")
-    straps: int = whole(2, 3, "straps")
     spots: int = among((1, 2), "towers", when=lambda p: _length(p.radius, p.slender) > 2, otherwise=1)
     towers: tuple[_Tower, ...] = several(made(_Tower), lambda p: p.spots, "towers")
+    straps: int = whole(2, 3, "straps", when=lambda p: p.spots > 1, otherwise=2)
 
     def build(self, t: Table) -> Model:
         r, n, length = self.radius, sides(t.style, self.radius), _length(self.radius, self.slender)
@@ -326,9 +326,9 @@ class Buried(Tank, name="tank/buried", weight=0.7):
         t.add("foundation", box((wide, 2.2 * r, bed), (0, 0, bed / 2)))
         strap = along("x", ring(0.985 * r, 1.012 * r, -0.03, 0.03, n), 0, 0, axis)
         anchors = [rod((0, s * r, bed - 0.01), (0, s * r, axis), 0.012, 8) for s in BOTH]
-        for x in np.linspace(-0.3, 0.3, self.straps) * length:
+        for x in np.linspace(-0.45, 0.45, self.straps) * length:
             t.at(x).add("clamp", strap, *anchors)
-        for f, tower in zip((0.0,) if self.spots == 1 else (-0.28, 0.28), self.towers, strict=True):
+        for f, tower in zip((0.0,) if self.spots == 1 else (-0.24, 0.24), self.towers, strict=True):
             tower.build(middle.at(f * length), r)
         for s in BOTH:
             out = middle.at(s * (length / 2 + 0.75 * head_height(self.ends, 0.97 * r)), 0, 0.55 * r)

@@ -87,7 +87,7 @@ class Reactor(Tank, name="tank/stirred reactor", weight=1.2):
         drum, top = Drum(r, low, low + height, n), low + 0.75 * height
         put_vessel(t, drum, _DISHED, _DISHED)
         self._jacket(t, low, top, n)
-        for z, a in ((low + 0.1, 0.4), (top - 0.08, 3.5)):
+        for z, a in ((low + 0.1, 1.05), (top - 0.08, 3.5)):
             t.moved(drum.side(a, z)).extend(mouth("plain", 25, 0.16, t.style, r, drum.dip))
         apex, size = drum.high + deep, self.drive * (0.6 + 0.5 * r)
         pad = cylinder(0.75 * size, apex - 0.05 * r - 0.02, apex + 0.05, t.n(size))
@@ -101,7 +101,7 @@ class Reactor(Tank, name="tank/stirred reactor", weight=1.2):
             port = branch(t, "plain", dn, crown[k], 0.0, 0.15 * r, 0.06)
             ports += port if k < 2 else []
         if r > 0.55:
-            t.moved(crown[5]).extend(self.manway.parts(t.style, 0.2, 0.0, 0.2 * r))
+            t.moved(crown[5]).extend(self.manway.parts(t.style, min(0.2, 0.27 * r - 0.045), 0.0, 0.2 * r))
         t.at(0, 0, low - deep).along("-z").extend(mouth("plain", 50, 0.16, t.style, 0.0, 0.02))
         t.extend(self.stand.parts(Drum(1.07 * r if self.feet == "bracket" else r, low, drum.high, n), t.style))
         return t.model(kind="stirred reactor", ports=ports)
@@ -151,9 +151,9 @@ class Mixer(Tank, name="tank/open mixer", weight=0.7):
         up.add("shaft", cylinder(0.02 + 0.01 * r, deep, z + 0.1, 10), own=True)
         blade = moved(box((0.45 * r, 0.12 * r, 0.012), (0.22 * r, 0, 0)), spun("x", 0.6))
         up.at(0, 0, deep + 0.05 * r).add("impeller", around(blade, self.blades), own=True)
-        up.moved(drum.side(0.9, 0.12)).extend(mouth("plain", 40, 0.15, t.style, r, drum.dip))
+        ports = branch(t, "plain", 40, lying.side(0.9, low + 0.12), r, drum.dip)
         t.extend(self.legs.parts(lying, t.style))
-        return t.model(kind="mixing tank")
+        return t.model(kind="mixing tank", ports=ports if low > 0.5 else ())
 
 
 class Bullet(Tank, name="tank/bullet", weight=0.7):
@@ -217,8 +217,9 @@ class Sphere(Tank, name="tank/pressure sphere", weight=0.7):
                 t.add("brace", rod(*ends, 0.012 + 0.006 * r, 6))
         t.at(0, 0, z - r).along("-z").extend(mouth("plain", 80, 0.2, t.style, 0.0, 0.05 * r))
         ports = branch(t, "plain", 80, at(0, 0, z + r), 0.0, 0.05 * r, 0.1)
-        tilted = middle.at(0.4 * r, 0, 0.916 * r).spun("y", 0.41)
-        tilted.extend(self.manway.parts(t.style, 0.22, 0.0, 0.1 * r))
+        tilt = max(0.41, float(np.arcsin(0.45 / r)))
+        tilted = middle.spun("y", tilt).at(0, 0, r)
+        tilted.extend(self.manway.parts(t.style, min(0.22, 0.2 * r), 0.0, 0.1 * r))
         return t.model(kind="pressure sphere", ports=ports)
 
 
@@ -258,7 +259,7 @@ class Receiver(Tank, name="tank/air receiver"):
         else:
             t.extend(self.legs.parts(drum, t.style))
         hole = self.handhole.parts(t.style, min(0.11, 0.45 * r), r, dip)
-        t.moved(drum.side(5.0, low + 0.3 * height)).extend(hole)
+        t.moved(drum.side(1.35, low + 0.3 * height)).extend(hole)
         for k, one in enumerate(self.sockets):
             pose = drum.side(4.2 + 0.6 * k, low + height * one.height)
             t.moved(pose).extend(mouth("half", one.size, 0.05, t.style, r, dip))

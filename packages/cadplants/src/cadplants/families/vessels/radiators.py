@@ -51,7 +51,7 @@ class TowelRail(_Radiator, name="radiator/towel rail"):
     groups: int = whole(2, 4, "groups of bars")
     bars: str = among(("between", "in front", "flat"), "where round bars are, or flat ones")
     square: bool = chance(0.4, "its rails are square")
-    bow: float = among((0.0, 0.05, 0.08), "how far round bars bow", "m")
+    bow: float = among((0.0, 0.05, 0.08), "how far round bars bow", "m", when=lambda p: p.bars != "flat", otherwise=0.0)
 
     def build(self, t: Table) -> Model:
         w, h, low, stand, n = self.width, self.height, 0.25, 0.09, t.n(0.015, 6, 12)
@@ -102,11 +102,13 @@ class Convector(_Radiator, name="radiator/convector"):
         up.add(_RAD, *bars, of="clamp")
         z, out = low + 0.08, w / 2 - 0.02
         fins = [box((0.001, 0.85 * d, 0.1), (x, 0, z)) for x in np.linspace(-0.44, 0.44, 40) * w]
-        tubes = [rod((-w / 2 - 0.05, y, z), (out, y, z), 0.0107, 10) for y in (-0.2 * d, 0.2 * d)]
-        up.add(_RAD, *fins, *tubes, of="trim")
+        y, x = 0.2 * d, -w / 2 - 0.06
+        up.add(_RAD, *fins, rope([(x, -y, z), (out, -y, z), (out, y, z), (x, y, z)], 0.0107, 10), of="trim")
+        z += self.lift
+        _valve(t, x, -y, z, -1)
+        t.add("pipe", rope([(x + 0.02, y, z), (x, y, z), (x, y, 0)], 0.0075, 8))
         if self.footed:
-            _valve(t, -w / 2 - 0.06, -0.2 * d, z, -1)
-            t.add("bracket", *(box((0.04, 0.9 * d, low + 0.01), (s * 0.35 * w, 0, (low + 0.01) / 2)) for s in BOTH))
+            t.add("bracket", *(box((0.04, d - sheet, low + 0.01), (s * 0.35 * w, 0, (low + 0.01) / 2)) for s in BOTH))
         else:
             t.extend([wall_behind(w + 0.6, 1.2, d / 2)])
         return t.model(kind="convector")
@@ -210,7 +212,8 @@ class Plinth(_Radiator, name="radiator/plinth", weight=0.8):
             top, xs = low + tall + 0.003, np.arange(-w / 2 + 0.02, w / 2, 0.03)
             slats = [box((0.018, deep + 0.03, 0.006), (x, middle, top)) for x in xs]
             t.add(_RAD, *slats, *(box((w, 0.012, 0.006), (0, y, top)) for y in (0.0, deep)), of="clamp")
-        foot = [box((0.03, deep + 0.02, low + 0.006), (0, middle, (low + 0.006) / 2))]
+        rest = z0 - (0.034 if self.flat else 0.0115)
+        foot = [box((0.03, deep + 0.02, rest), (0, middle, rest / 2))]
         foot.append(box((0.08, deep + 0.08, 0.005), (0, middle, 0.0025)))
         t.add("bracket", *(moved(merge(foot), at(s * 0.36 * w)) for s in BOTH))
         _valve(t, w / 2 + 0.074, middle, z0, 1)
@@ -302,7 +305,7 @@ class CoolingTower(_Exchanger, name="heat exchanger/cooling tower"):
         post, x = (0.06, 0.06, h - 0.34), r - 0.03
         casing = [box((2 * r, 2 * r, 0.45 * h), (0, 0, low + 0.765 * h))]
         casing += [box(post, (sx * x, sy * x, low + 0.34 + (h - 0.35) / 2)) for sx, sy in corners]
-        slat, zs = moved(box((1.9 * r, 0.12, 0.01)), spun("x", 0.8)), np.linspace(low + 0.42, low + 0.52 * h, 6)
+        slat, zs = moved(box((2 * r - 0.1, 0.12, 0.01)), spun("x", 0.8)), np.linspace(low + 0.42, low + 0.52 * h, 6)
         louvres = [moved(slat, spun("z", q * np.pi / 2) @ at(0, -r + 0.06, float(z))) for q in range(4) for z in zs]
         feet = [box((0.15, 0.15, low + 0.001), (sx * 0.95 * r, sy * 0.95 * r, low / 2)) for sx, sy in corners]
         return box((2.1 * r, 2.1 * r, 0.35), (0, 0, low + 0.175)), casing, louvres, feet

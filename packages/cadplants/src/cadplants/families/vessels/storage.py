@@ -14,6 +14,7 @@ from cadplants.families.vessels.vessel_fittings import (
     Drum,
     Manway,
     capped,
+    fall,
     head,
     head_height,
     mouth,
@@ -94,20 +95,15 @@ class _Access(Params):
     """A ladder or stairs up the shell, and a railing round the roof."""
 
     high: float = given(2.0, "height of the shell's upper rim", "m")
-    ladder: bool = chance(0.5, "a ladder rather than stairs, wherever it is not low", when=lambda p: p.high > 1.6)
-    caged: bool = among(
-        (False, True),
-        "whether the ladder is caged",
-        when=lambda p: p.high > 1.6 and (p.ladder or p.high < 2.0),
-        otherwise=False,
-    )
+    ladder: bool = chance(0.5, "a ladder rather than stairs", when=lambda p: p.high >= 2.0, otherwise=True)
+    caged: bool = chance(0.5, "whether the ladder is caged", when=lambda p: p.high > 1.8 and p.ladder)
     railed: bool = chance(0.6, "a railing round the roof")
 
     def build(self, t: Table, drum: Drum, rise: float) -> None:
         if drum.high > 1.6:
-            if self.ladder or drum.high < 2.0:
+            if self.ladder:
                 gap, high = 0.18, drum.high + 1.0
-                up = ladder(drum.r + gap, 0.0, high, t.style, self.caged, gap + drum.dip)
+                up = ladder(drum.r + gap, 0.0, high, t.style, self.caged, gap + drum.dip + fall(drum.r, 0.22))
                 t.spun("z", 0.5).add("ladder", up)
             else:
                 _stairs(t, drum)
@@ -198,7 +194,7 @@ class ConeRoof(_Roofed, name="tank/cone roof", weight=1.0):
         self.courses.build(t, drum)
         corners = outline(r + 0.03, 0.0, r + 0.03, 0.01, 0.06 * r, rise, 0.0, rise)
         roof.add("dished head", capped(corners, t.style, drum.n))
-        t.add("shell", ring(r, r + 0.06, drum.high - 0.06, drum.high, drum.n))
+        t.add("shell", ring(0.99 * r, r + 0.06, drum.high - 0.06, drum.high, drum.n))
         ports = self.fittings.build(t, drum)
         ports += branch(t, self.top, self.top_size, at(0, 0, drum.high + rise), 0.0, 0.03)
         x = 0.62 * r
@@ -259,7 +255,7 @@ class OpenTop(_Big, name="tank/open top"):
             t.add("grating", box((2 * r, 0.85, 0.03), (0, 0, drum.high + 0.155)))
         if drum.high > 1.6:
             gap = 0.2
-            up = ladder(r + gap, 0.0, drum.high + 0.9, t.style, False, gap + drum.dip)
+            up = ladder(r + gap, 0.0, drum.high + 0.9, t.style, False, gap + drum.dip + fall(r, 0.22))
             t.spun("z", 0.7).add("ladder", up)
         return t.model(kind="open tank", ports=ports)
 
@@ -336,6 +332,7 @@ class Silo(Tank, name="tank/silo"):
         eave = 1.02 * r + 0.02
         roof = capped(outline(eave, 0.0, eave, 0.01, 0.12 * r, rise, 0.0, rise), t.style, n)
         t.at(0, 0, high).add("dished head", roof)
+        t.add("shell", ring(0.985 * r, eave, high - 0.03, high, n))
         end = low - cone
         gate = cylinder(mouth_r, end - 0.12, end, n)
         apart(t, "nozzle", ring(mouth_r, 1.5 * mouth_r, end - 0.02, end, n), gate, of="flange")
@@ -346,7 +343,7 @@ class Silo(Tank, name="tank/silo"):
             t.at(0.35 * r).add("filter", *case, of="tank")
         fill = [(r + 0.06, 0, 0.8), (r + 0.06, 0, top), (r - 0.15, 0, top + 0.15), (0.5 * r, 0, high + 0.45 * rise)]
         t.spun("z", 2.0).add("pipe", rope(fill, 0.057, 12))
-        t.spun("z", 4.3).add("ladder", ladder(r + 0.2, 0.3, high + 0.9, t.style, True, 0.25))
+        t.spun("z", 4.3).add("ladder", ladder(r + 0.2, 0.3, high + 0.9, t.style, True, 0.21 + drum.dip + fall(r, 0.22)))
         return t.model(kind="silo")
 
 
@@ -410,6 +407,7 @@ class Moulded(Tank, name="tank/moulded plastic"):
             wall += outline(r, z, wide, z + 0.2 * pitch, wide, z + 0.6 * pitch, r, z + 0.8 * pitch)
         top = wall[-1][1] + 0.3 * pitch
         wall += [(f * r, top + g * shoulder) for f, g in ((1, 0), (0.96, 0.4), (0.8, 0.75), (0.4, 1))]
+        t = t.at(0, 0, 0.01) if self.bunded else t
         t.add("shell", turned(wall, n))
         t.at(0, 0, top + shoulder).extend(self.lid.parts(t.style, min(0.25, 0.38 * r), 0.0, 0.02))
         drum = Drum(r, 0.0, top, n)

@@ -6,7 +6,7 @@ import numpy as np
 
 from cadplants.builder.device import Device, families_of
 from cadplants.builder.draws import made
-from cadplants.builder.params import Params, among, between, chance, nested, several, whole
+from cadplants.builder.params import Params, among, between, chance, given, nested, several, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.valves.valve import bolt_circle, disc_flange
 from cadplants.family import Model, Part, Port, placed
@@ -14,7 +14,7 @@ from cadplants.flange import plate_thickness
 from cadplants.mesh_ops import Solid, extrude, merge, moved, revolve, weld
 from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle
-from cadplants.primitives import along, around, ball, box, cylinder, hexagon, ring, rod, rope, turned
+from cadplants.primitives import BOTH, along, around, ball, box, cylinder, hexagon, ring, rod, rope, turned
 from cadplants.standards import FLANGES, PIPES
 from cadplants.transforms import at, looking, spun
 
@@ -94,13 +94,14 @@ class LevelGauge(Params):
         column, middle = 0.012 if self.glass else 0.03, (r + out) / 2
         for z in (low, high):
             nut = merge([hexagon(0.045, -0.02, 0.02), ring(0.011, 0.03, -0.05, -0.04, 12)])
-            cocks += [along("x", nut, middle, 0, z), rod((middle, -0.03, z), (middle, -0.09, z), 0.005, 8)]
+            cocks += [along("x", nut, middle, 0, z), rod((middle, 0, z), (middle, -0.09, z), 0.005, 8)]
         t.add("gauge stem", *(rod((r - 0.01, 0, z), (out, 0, z), 0.011, 10) for z in (low, high)), own=True)
         t.add("gauge stem", *cocks, own=True)
         tube = cylinder(column, low - 0.06, high + 0.06, style.round(column))
         if self.glass:
             spots = ((0.022, 0.022), (0.022, -0.022), (-0.022, 0.0))
             guards = [rod((x, y, low - 0.04), (x, y, high + 0.04), 0.004, 6) for x, y in spots]
+            guards += [cylinder(0.034, z, z + 0.008, 12) for z in (low - 0.04, high + 0.032)]
             t.at(out).add("sight glass", tube, of="dial", own=True)
             t.at(out).add("level gauge", *guards, own=True)
             return t.parts
@@ -123,7 +124,12 @@ def level_gauge(
 class _Nozzle(Params):
     """A nozzle on the side of an upright shell."""
 
-    size: int = among((25, 40, 50, 80, 100), "nominal size, where the shell is large enough", "mm")
+    room: float = given(1.0, "radius of the shell", "m")
+    size: int = among(
+        lambda p: tuple(dn for dn in (25, 40, 50, 80, 100) if dn == 25 or FLANGES[dn].outer <= 0.8 * p.room),
+        "nominal size",
+        "mm",
+    )
     turn: float = between(0, 0.5, "round the shell from its even place", "rad")
     height: float = between(0.15, 0.85, "over the shell's lower rim / height of the shell")
 
@@ -140,7 +146,9 @@ class _Upright(Tank):
     legs: int = among((3, 4), "legs", when=lambda p: p.feet == "legs", otherwise=0)
     section: str = among(("pipe", "angle", "tube"), "of the legs", when=lambda p: p.feet == "legs", otherwise="")
     count: int = whole(1, 3, "nozzles on the side")
-    nozzles: tuple[_Nozzle, ...] = several(made(_Nozzle), lambda p: p.count, "nozzles on the side")
+    nozzles: tuple[_Nozzle, ...] = several(
+        made(_Nozzle, lambda p: {"room": p.radius}), lambda p: p.count, "nozzles on the side"
+    )
     topped: bool = chance(0.7, "a nozzle on top")
     manned: bool = chance(0.6, "a manway", when=lambda p: p.radius > 0.5)
     lugs: bool = chance(0.5, "lifting lugs")
@@ -151,7 +159,7 @@ class _Upright(Tank):
         r, height, n = self.radius, self.slender * self.radius, t.n(self.radius)
         n = n if n < 24 else max(32, n)
         standing = self.feet != "none"
-        base = head_profile(self.lower, r)[-1][1] + 0.06 * r + self.clear if standing else 0.02 + 0.06 * r
+        base = head_profile(self.lower, r)[-1][1] + 0.06 * r + self.clear if standing else 0.01 + 0.06 * r
         t.at(0, 0, base).add("shell", _shell(r, height, t.style, n))
         t.at(0, 0, base + height).add("dished head", _head(self.upper, r, t.style, n))
         t.at(0, 0, base).spun("x", np.pi).add("dished head", _head(self.lower, r, t.style, n))
@@ -159,8 +167,12 @@ class _Upright(Tank):
             self._stand(t, base, n)
         ports = []
         for k, one in enumerate(self.nozzles):
-            dn = one.size if FLANGES[one.size].outer <= 0.8 * r else 25
-            angle, z, reach = 2.2 * k + one.turn, base + height * one.height, 0.08 + PIPES[dn].radius
+            dn, angle, z, reach = (
+                one.size,
+                2.2 * k + one.turn,
+                base + height * one.height,
+                0.08 + PIPES[one.size].radius,
+            )
             _beside(t, r, z, angle).extend(nozzle(dn, reach, t.style))
             way = np.array([np.cos(angle), np.sin(angle), 0.0])
             ports += [Port(looking(way * (r + reach) + (0, 0, z), way), dn)] if z > 0.6 else []
@@ -190,7 +202,7 @@ class _Upright(Tank):
             apart(t, "skirt", ring(0.85 * r, 1.12 * r, 0.0, 0.02, n))
             return
         high, thin = low + 0.25 * r, 0.1 * side
-        angle = np.array(outline(0, 0, side, 0, side, thin, thin, thin, thin, side, 0, side)) - 0.3 * side
+        angle = np.array(outline(0, 0, side, 0, side, thin, thin, thin, thin, side, 0, side)) - (0.5 * side, 0.3 * side)
         if self.section == "pipe":
             leg = ring(0.4 * side if t.style.hollow else 0.0, 0.5 * side, 0.0, high, t.n(side))
         else:
@@ -242,8 +254,8 @@ class Horizontal(Tank, name="tank/horizontal", weight=2):
     ends: str = among((*_HEADS, "flat"), "heads at its ends")
     count: int = whole(2, 3, "nozzles on top")
     first: int = among(_SIZES, _ABOUT_SIZE.format("first"), "mm")
-    second: int = among(_SIZES, _ABOUT_SIZE.format("second"), "mm")
     manned: bool = chance(0.6, "a manway in place of the second nozzle", when=lambda p: p.radius > 0.4)
+    second: int = among(_SIZES, _ABOUT_SIZE.format("second"), "mm", when=lambda p: not p.manned, otherwise=0)
     third: int = among(_SIZES, _ABOUT_SIZE.format("third"), "mm", when=lambda p: p.count == 3, otherwise=0)
 
     def build(self, t: Table) -> Model:
@@ -285,7 +297,8 @@ class Rectangular(Tank, name="tank/rectangular"):
         t.add("shell", extrude(rounded_rectangle(w, d, 0.06, 4), base, base + h))
         t.at(0.1 * w).add("manway", cylinder(0.09, base + h, base + h + 0.04, t.n(0.09)), of="rubber")
         if self.caged:
-            spots = [(x, y) for x in np.linspace(-w / 2 - 0.01, w / 2 + 0.01, 6) for y in (-d / 2 - 0.01, d / 2 + 0.01)]
+            spots = [(x, s * (d / 2 + 0.01)) for x in np.linspace(0.06 - w / 2, w / 2 - 0.06, 6) for s in BOTH]
+            spots += [(s * (w / 2 + 0.01), y) for y in np.linspace(0.06 - d / 2, d / 2 - 0.06, 4) for s in BOTH]
             posts = [rod((x, y, base), (x, y, base + h + 0.02), 0.009, 8) for x, y in spots]
             outer, inner = (
                 rounded_rectangle(w + 0.04, d + 0.04, 0.06, 3),
@@ -310,14 +323,14 @@ class Sphere(Tank, name="tank/sphere", weight=0.7):
     seamed: bool = chance(0.5, "a seam round its middle")
 
     def build(self, t: Table) -> Model:
-        r, axis, n = self.radius, self.radius + self.clear, t.n(self.radius)
+        r, axis, n = self.radius, self.stretch * self.radius + self.clear, t.n(self.radius)
         t.at(0, 0, axis).add("shell", ball(r, n, self.stretch))
         if self.seamed:
             t.add("shell", ring(0.99 * r, 1.03 * r, axis - 0.02, axis + 0.02, n))
         for k in range(3):
-            leg = rod((r, 0.0, 0.0), (0.75 * r, 0.0, axis - 0.3 * r), 0.02, 10)
-            apart(t.spun("z", 2 * np.pi * k / 3), "tank leg", leg)
-        apart(t, "nozzle", rod((0, 0, axis - 1.3 * r), (0, 0, axis), 0.017, 10))
+            leg = rod((r, 0.0, 0.01), (0.75 * r, 0.0, axis - 0.3 * r), 0.02, 10)
+            apart(t.spun("z", 2 * np.pi * k / 3), "tank leg", leg, moved(cylinder(0.05, 0.0, 0.015, 12), at(r)))
+        apart(t, "nozzle", rod((0, 0, self.clear - 0.1), (0, 0, axis), 0.017, 10))
         return t.model(kind="expansion vessel")
 
 

@@ -20,6 +20,7 @@ from cadplants.families.vessels.vessel_fittings import (
     fall,
     head,
     head_height,
+    head_outline,
     lug,
     mouth,
     mouth_reach,
@@ -99,15 +100,17 @@ class _Upright(Tank, weight=0.7):
     stand: Feet = nested(lambda s, p: FEET[p.feet].draw(s, {"clear": _clear(p)}), "what it stands on")
     count: int = whole(1, 3, "nozzles on the side")
     first: _Nozzle = nested(_Nozzle, "first nozzle on the side", fixed=lambda p: {"room": p.radius})
-    others: tuple[_Further, ...] = several(
-        made(_Further, lambda p: {"room": p.radius}), lambda p: p.count - 1, "further nozzles on the side"
+    others: tuple[_Nozzle, ...] = several(
+        lambda rng, p: (_Nozzle if p.form == "plain" else _Further).draw(rng, {"room": p.radius}),
+        lambda p: p.count - 1,
+        "further nozzles on the side",
     )
-    topped: bool = chance(0.75, "a nozzle on top, wherever it needn't have one")
+    topped: bool = chance(0.75, "a nozzle on top", when=lambda p: p.form not in ("vent", "heavy"), otherwise=True)
     top: int = among(
         lambda p: _sizes(0.6 * p.radius),
         "nominal size of the nozzle on top",
         "mm",
-        when=lambda p: p.topped or p.form in ("vent", "heavy"),
+        when=lambda p: p.topped,
         otherwise=0,
     )
 
@@ -148,12 +151,8 @@ class _WithManway(_Upright):
     height: float = between(0.35, 0.6, "of the manway over the shell's lower rim / height of the shell")
 
     def finish(self, t: Table, drum: Drum, apex: float) -> None:
-        pose = drum.side(5.0, drum.low + (drum.high - drum.low) * self.height)
-        t.moved(pose).extend(self.manway.parts(t.style, self.neck(), drum.r, drum.dip))
-
-    def neck(self) -> float:
-        """Radius of its neck [m]."""
-        return self.opening
+        pose = drum.side(4.17, drum.low + (drum.high - drum.low) * self.height)
+        t.moved(pose).extend(self.manway.parts(t.style, self.opening, drum.r, drum.dip))
 
 
 class HingedManway(_WithManway, name="manway/hinged"):
@@ -163,11 +162,8 @@ class HingedManway(_WithManway, name="manway/hinged"):
 class OvalManway(_WithManway, name="manway/oval"):
     """An upright vessel with an oval inspection opening."""
 
-    opening: float = between(0.42, 0.6, "radius of the inspection opening, at most 0.16 m / of the shell")
+    opening: float = between(0.1, 0.16, "radius of the inspection opening", "m")
     manway: Manway = nested(MANWAYS["oval"], "inspection opening")
-
-    def neck(self) -> float:
-        return min(self.opening * self.radius, 0.16)
 
 
 class _WithLugs(_Upright):
@@ -185,15 +181,16 @@ class _WithLugs(_Upright):
 
 
 class _WithEyes(_WithLugs):
-    """An upright vessel with two eyebolts on top of its head."""
+    """An upright vessel with eyebolts on top of its head."""
 
     lug: str = among(("eyebolt",), "how its lifting lugs are built")
 
     def finish(self, t: Table, drum: Drum, apex: float) -> None:
-        size, x, drop = self.wide + 0.06 * drum.r, 0.3 * drum.r, 0.04 * drum.r
+        size, x, shape = self.wide + 0.06 * drum.r, 0.45 * drum.r, np.array(head_outline(self.upper, drum.r))[::-1]
+        drop = shape[0, 1] - np.interp(x, *shape.T)
         boss = cylinder(0.5 * size, apex - 0.05 * drum.r - 0.02, apex + 0.012, 12)
-        for s in (-1, 1):
-            spot = t.at(s * x, 0, -drop)
+        for k in range(self.lugs):
+            spot = t.spun("z", 2 * np.pi * k / self.lugs).at(x, 0, -drop)
             apart(spot, "lifting lug", boss, of="tank")
             spot.at(0, 0, apex + 0.01).extend(lug("eyebolt", size, t.style))
 
@@ -225,7 +222,13 @@ class _Lying(Tank, weight=0.7):
     third: bool = chance(0.3, "a third saddle", when=lambda p: _length(p) > 4.8 * p.radius)
     saddle: Saddle = nested(lambda s, p: SADDLES[p.rest].draw(s), "each saddle")
     count: int = whole(2, 4, "nozzles and manways on top")
-    opening: float = between(0.22, 0.3, "radius of the manway's neck", "m", when=lambda p: p.closure != "none")
+    opening: float = between(
+        0.22,
+        lambda p: min(max(0.22, 0.5 * p.radius), 0.3),
+        "radius of the manway's neck",
+        "m",
+        when=lambda p: p.closure != "none",
+    )
     manway: Manway = nested(lambda s, p: MANWAYS[p.closure].draw(s), "manway", when=lambda p: p.closure != "none")
     nozzles: tuple[_TopNozzle, ...] = several(
         made(_TopNozzle, lambda p: {"room": 0.8 * p.radius}),
@@ -248,8 +251,7 @@ class _Lying(Tank, weight=0.7):
             t.at(x).extend(saddle)
         spots = [lay @ drum.side(np.pi, z) for z in np.linspace(0.15, 0.85, self.count) * length]
         if self.closure != "none":
-            size = min(0.5 * r, self.opening)
-            t.moved(spots.pop(1)).extend(self.manway.parts(t.style, size, r, drum.dip))
+            t.moved(spots.pop(1)).extend(self.manway.parts(t.style, self.opening, r, drum.dip))
         ports: list[Port] = []
         for pose, one in zip(spots, self.nozzles, strict=True):
             ports += branch(t, one.form, one.size, pose, r, drum.dip)
@@ -257,7 +259,7 @@ class _Lying(Tank, weight=0.7):
             pose = lay @ at(0, 0, length + head_height(self.ends, r))
             ports += branch(t, "plain", self.end, pose, 0.0, 0.02 * r)
         if self.lug != "none":
-            for z, turn in ((0.12 * length, 0.35), (0.88 * length, -0.35)):
+            for z, turn in ((0.05 * length, 0.6), (0.95 * length, -0.6)):
                 pose = lay @ drum.side(np.pi + turn, z)
                 t.moved(pose).extend(lug(self.lug, 0.08 + 0.06 * r, t.style, r, drum.dip))
         return t.model(kind="tank", ports=ports)

@@ -45,8 +45,6 @@ def _anchors(t: Table, points: Sequence[tuple[float, float]], thread: float, gri
 class Saddle(Params):
     """A saddle across x = 0 (DIN 28080, or built as small makers do)."""
 
-    half: float = between(0.85, 1.1, "half the angle that the wear plate of a ribbed one embraces", "rad")
-
     def parts(self, r: float, axis: float, style: ModelingStyle) -> list[Part]:
         """The saddle of a vessel of radius ``r`` whose axis is at ``axis`` over the floor [m]."""
         t = Table(style, "Tank", "saddle")
@@ -63,6 +61,7 @@ class Ribbed(Saddle):
 
     kind = "ribbed"
 
+    half: float = between(0.85, 1.1, "half the angle that the wear plate embraces", "rad")
     ribs: int = whole(2, 4, "ribs")
 
     def build(self, t: Table, r: float, axis: float) -> None:
@@ -295,7 +294,7 @@ class AngleLegs(_Legs):
         high, low = self.high(drum), drum.low
         leg = extrude(section_angle(side, 0.12 * side), 0.01, high)
         pad = box((0.02, 1.6 * side, 1.3 * (high - low)), (out + 0.008, 0, low + 0.65 * (high - low)))
-        return merge([moved(leg, at(out + 1.38 * side) @ spun("z", 0.75 * np.pi)), pad])
+        return merge([moved(leg, at(out + 0.79 * side) @ spun("z", 0.75 * np.pi)), pad])
 
 
 class PipeLegs(_Legs):
@@ -335,7 +334,7 @@ class BeamLegs(_Legs):
 
     def leg(self, drum: Drum, side: float, out: float, style: ModelingStyle) -> Solid:
         section = section_i(1.2 * side, 1.1 * side, 0.08 * side, 0.1 * side)
-        return moved(extrude(section, 0.01, self.high(drum)), at(out + 0.6 * side))
+        return moved(extrude(section, 0.01, self.high(drum)), at(out + 0.54 * side))
 
 
 class Pads(_Legs):
@@ -411,7 +410,7 @@ def ladder(x: float, low: float, high: float, style: ModelingStyle, caged: bool,
     n, wide = max(6, min(10, style.round(0.02))), 0.4
     solids = [rod((x, s * wide / 2, low), (x, s * wide / 2, high), 0.02, n) for s in BOTH]
     solids += [rod((x, -wide / 2, z), (x, wide / 2, z), 0.011, 6) for z in np.arange(low + 0.25, high - 0.05, 0.28)]
-    for z in np.arange(low + 0.4, high - 0.9, 1.5):
+    for z in np.linspace(low + 0.4, high - 1.1, max(2, int((high - low) / 1.5))):
         solids += [box((spacers, 0.05, 0.01), (x - spacers / 2, s * wide / 2, z)) for s in BOTH]
     if caged and high - low > 2.8:
         a = np.linspace(-np.pi / 2, np.pi / 2, 9)
