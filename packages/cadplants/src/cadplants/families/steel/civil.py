@@ -40,6 +40,10 @@ def _frustum(low: Floats, high: Floats, z: tuple[float, float]) -> Solid:
     return weld([loft([ends[0], *loops, ends[1]])])
 
 
+_ON_TOP = ("anchors", "bare", "sole plates", "grout")
+_ON_TOP_OF = {"chamfered": 4, "battered": 4, "recessed": 2}
+
+
 class Plinth(Structure, name="foundation/plinth", weight=1.4, grain="fitting"):
     """Equipment plinths: chamfered, battered, with a step or recess, round; with grout, sole plates and anchors."""
 
@@ -49,7 +53,7 @@ class Plinth(Structure, name="foundation/plinth", weight=1.4, grain="fitting"):
     form: str = among(("chamfered", "battered", "stepped", "round", "recessed"), "how it is made")
     slabbed: bool = chance(0.4, "a slab under it")
     slab: str = among(("ground", "foundation"), "what the slab is called", when=lambda p: p.slabbed)
-    top: str = among(("anchors", "sole plates", "grout", "bare"), "what is on it")
+    top: str = among(lambda p: _ON_TOP[: _ON_TOP_OF.get(p.form, 3)], "what is on it")
     anchor: float = among((0.012, 0.016, 0.02), "diameter of an anchor", "m", when=lambda p: p.top == "anchors")
 
     def build(self, t: Table) -> Model:
@@ -58,14 +62,16 @@ class Plinth(Structure, name="foundation/plinth", weight=1.4, grain="fitting"):
         b = a if form == "round" else b
         if self.slabbed:
             t.add(self.slab, box((a + 0.8, b + 0.8, 0.15), (0, 0, -0.075)), of="concrete")
-        shift, reach = (0.25 * a, 0.18 * a) if form == "stepped" else (0.0, 0.3 * a)
-        spots = [(shift + sx * reach, sy * 0.32 * b) for sx, sy in CORNERS]
+        shift, reach = (0.25 * a, 0.14 * a) if form == "stepped" else (0.0, 0.3 * a if form == "recessed" else 0.26 * a)
+        deep = (0.32 if form == "recessed" else 0.26) * b
+        spots = [(shift + sx * reach, sy * deep) for sx, sy in CORNERS]
         if self.top == "anchors":
             bolts(t, [at(x, y, h) for x, y in spots], self.anchor, 0.03)
-        elif self.top == "sole plates" and form != "recessed":
-            t.add_each("base plate", [box((0.16, 0.12, 0.02), (x, y, h + 0.01)) for x, y in spots])
+        elif self.top == "sole plates":
+            size = (min(0.16, 1.2 * reach), min(0.12, 1.2 * deep), 0.02)
+            t.add_each("base plate", [box(size, (x, y, h + 0.01)) for x, y in spots])
             bolts(t, [at(x, y, h + 0.02) for x, y in spots], 0.014, 0.02)
-        elif self.top == "grout" and form in ("chamfered", "battered"):
+        elif self.top == "grout":
             t.add("foundation", box((0.8 * a, 0.8 * b, 0.03), (0, 0, h + 0.015)), of="ground")
             t.add("base plate", box((0.74 * a, 0.74 * b, 0.015), (0, 0, h + 0.0375)))
         return t.model()

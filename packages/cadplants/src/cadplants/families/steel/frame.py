@@ -12,6 +12,7 @@ from cadplants.families.steel.shape import (
     Section,
     Structure,
     grid,
+    lug,
     rect,
 )
 from cadplants.family import Model
@@ -281,8 +282,8 @@ class Platform(Structure, name="platform/bay", weight=2.5):
     height: float = between(0.4, 2.4, "of its floor", "m")
     column: Profile = nested(Profile, "of the columns")
     edge: Profile = nested(Profile, "of the beams")
-    count: int = whole(1, 3, "panels, if it has such")
     plain: bool = chance(0.3, "its floor is one plate")
+    count: int = whole(1, 3, "panels", when=lambda p: not p.plain)
     panels: tuple[Panel, ...] = several(made(Panel), lambda p: p.count, "of the floor", when=lambda p: not p.plain)
     back: Rails = nested(Rails, "railing along x", when=lambda p: p.height > 0.5)
     sided: bool = chance(0.6, "a railing along y", when=lambda p: p.height > 0.5)
@@ -374,8 +375,8 @@ class Concrete(Structure, name="foundation/concrete", weight=1.5, grain="fitting
         "m",
     )
     width: float = between(0.4, 1.0, "of a foundation", "m", when=of_form("foundation"))
-    height: float = between(1.0, 3.0, "of a wall", "m", when=lambda p: p.form != "foundation")
-    thick: float = between(0.1, 0.3, "thickness of a wall", "m", when=lambda p: p.form != "foundation")
+    height: float = between(1.0, 3.0, "of a wall", "m", when=of_form("wall"))
+    thick: float = between(0.1, 0.3, "thickness of a wall", "m", when=of_form("wall"))
     opening: bool = chance(0.5, "an opening in the wall", when=of_form("wall"))
 
     def build(self, t: Table) -> Model:
@@ -400,17 +401,18 @@ class Concrete(Structure, name="foundation/concrete", weight=1.5, grain="fitting
 
 
 class Wheeled(Structure, name="skid frame/wheeled", weight=3, grain="fitting"):
-    """A skid frame of sections with lifting eyes or fork pockets, on casters or feet."""
+    """A skid frame of sections, maybe with a deck and lifting eyes, on casters or on the floor."""
 
     length: float = between(1.2, 2.6, "of the frame", "m")
     width: float = between(0.7, 1.4, "of the frame", "m")
     profile: Profile = nested(Profile, "of the frame")
     wheeled: bool = chance(0.55, "on casters")
-    radius: float = between(0.04, 0.09, "of a caster's wheel", "m")
+    radius: float = between(0.04, 0.09, "of a caster's wheel", "m", when=lambda p: p.wheeled)
     ties: int = whole(3, 5, "cross members")
     decked: bool = chance(0.5, "a plate on it")
     loose: bool = chance(0.5, "that plate is a part of its own kind, not of the frame", when=lambda p: p.decked)
     turns: tuple[float, ...] = several(number(0, 6), 4, "which way a caster points", "rad", when=lambda p: p.wheeled)
+    eyed: bool = chance(0.4, "with lifting eyes")
 
     def build(self, t: Table) -> Model:
         w, d, r, own = self.length, self.width, self.radius, t.bundled("skid frame")
@@ -423,6 +425,8 @@ class Wheeled(Structure, name="skid frame/wheeled", weight=3, grain="fitting"):
         own.add_each("skid frame", [bar((x, -d / 2, z), (x, d / 2, z), *tie) for x in xs])
         if self.decked:
             t.add("plate" if self.loose else "skid frame", box((w, d, 0.006), (0, 0, top + 0.003)))
+        for sx, sy in CORNERS if self.eyed else ():
+            t.at(sx * (w / 2 - 0.15), sy * d / 2, top).add("lifting lug", lug(t.style, 0.07, 0.012), of="steel")
         for (sx, sy), turn in zip(CORNERS, self.turns, strict=False):
             self._caster(t.at(sx * 0.4 * w, sy * d / 2).spun("z", turn).bundled("caster"), low)
         return t.model()

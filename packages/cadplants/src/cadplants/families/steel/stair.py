@@ -73,7 +73,7 @@ class ConcreteFlight(Structure, name="stairs/concrete", weight=0.8, grain="fitti
     rise: float = between(0.15, 0.19, "of a step", "m")
     going: float = between(0.25, 0.32, "of a step", "m")
     width: float = between(0.7, 1.6, "of the flight", "m")
-    solid: bool = chance(0.5, "solid, not a sloped slab, as short ones always are")
+    solid: bool = chance(0.5, "solid, not a sloped slab", when=lambda p: p.count > 3, otherwise=True)
     cheeked: bool = chance(0.35, "with cheek walls")
     nosed: bool = chance(0.4, "with nosings")
     railed: bool = chance(0.6, "with a railing")
@@ -81,14 +81,13 @@ class ConcreteFlight(Structure, name="stairs/concrete", weight=0.8, grain="fitti
     def build(self, t: Table) -> Model:
         n, rise, go, wide = self.count, self.rise, self.going, self.width
         run, h = n * go, n * rise
-        solid = self.solid or n < 4
         steps = [(0.0, 0.0), *((x, (k + 1) * rise) for k in range(n) for x in (k * go, (k + 1) * go))]
-        under = [(run, 0.0)] if solid else [(run, h - 0.2), (0.35, 0.0)]
+        under = [(run, 0.0)] if self.solid else [(run, h - 0.2), (0.35, 0.0)]
         t.add("stair tread", slab_xz(np.array([*steps, *under][::-1]), wide), of="concrete")
         if self.cheeked:
             cheek = [(-0.1, 0), (run, 0), (run, h + 0.15), (-0.1, 0.15)]
             t.add_each("wall", [slab_xz(cheek, 0.15, s * (wide / 2 + 0.075)) for s in BOTH])
-        elif not solid:
+        elif not self.solid:
             t.add("wall", box((0.3, wide, h - 0.2), (run + 0.15, 0, (h - 0.2) / 2)))
         if self.nosed:
             nosings = [box((0.05, wide, 0.004), (k * go + 0.025, 0, (k + 1) * rise + 0.002)) for k in range(n)]
