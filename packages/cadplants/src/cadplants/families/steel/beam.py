@@ -333,7 +333,9 @@ class Stack(Structure, name="beam/stack", weight=0.8, grain="fitting"):
     racked: bool = chance(0.4, "on a cantilever rack, not between battens")
     batten: float = among((0.05, 0.08), "side of a batten", "m", when=lambda p: not p.racked)
     upright: str = among(("I", "H", "SHS"), "section of the rack's uprights", when=_on_rack)
-    pitch: float = between(0.15, 0.4, "free height over the profiles on an arm", "m", when=_on_rack)
+    pitch: float = between(
+        0.15, 0.4, "free height over the profiles on an arm", "m", when=lambda p: p.racked and p.layers > 1
+    )
     shifts: tuple[float, ...] = several(
         number(-0.05, 0.05), lambda p: p.layers * p.columns, "how far a profile lies out of line", "m"
     )

@@ -13,6 +13,7 @@ from cadplants.families.steel.shape import (
     Structure,
     grid,
     lug,
+    raking,
     rect,
 )
 from cadplants.family import Model
@@ -28,7 +29,7 @@ __all__ = ["FRAMES"]
 class Profile(Params):
     """A rolled or hollow section (proportions of EN 10365, EN 10056, EN 10210)."""
 
-    share: float = between(0.25, 1.0, "height / the greatest that it could have")
+    share: float = between(0.4, 1.0, "height / the greatest that it could have")
     form: str = among(("H", "I", "channel", "angle", "square tube", "round tube"), "section")
     corner: float = among((0.0, 0.08), "radius of its corners / height", when=of_form("square tube"))
 
@@ -74,7 +75,7 @@ class Bay(Structure, name="frame/bay", weight=2, grain="fitting"):
     def build(self, t: Table) -> Model:
         w, d, h = self.width, self.depth, self.height
         (up, up_hole), across = self.column.section(t.style, 0.22), self.beam.section(t.style, 0.2)
-        thin, thin_hole = self.thin.section(t.style, 0.1)
+        thin, thin_hole = self.thin.section(t.style, 0.14)
         side, bolt = (
             float(np.ptp(up, axis=0).max()) + 0.12,
             [cylinder(0.008, 0.0, 0.05, 8), hexagon(0.024, 0.015, 0.028)],
@@ -91,25 +92,27 @@ class Bay(Structure, name="frame/bay", weight=2, grain="fitting"):
         deep, level = float(np.ptp(thin[:, 1])), 2 * level - h
         for x in np.linspace(0, w, self.purlins):
             t.add("beam", bar((x, 0, level + deep / 2), (x, d, level + deep / 2), thin, thin_hole))
-        self._braces(t, -float(np.ptp(up[:, 1])) * 0.1, (0.8 * thin, tuple(0.8 * hole for hole in thin_hole)))
+        half = float(np.ptp(up[:, 0])) / 2
+        self._braces(t, half, (0.8 * thin, tuple(0.8 * hole for hole in thin_hole)))
         if self.floored:
             t.add(self.floor, box((w + 0.1, d + 0.1, 0.008), (w / 2, d / 2, level + deep + 0.004)), of="steel")
         return t.model()
 
-    def _braces(self, t: Table, y: float, one: Section) -> None:
+    def _braces(self, t: Table, half: float, one: Section) -> None:
+        """Knee braces, or braces on either side of gusset plates in the corners between columns, feet and beam."""
         w, h, side = self.width, self.height, 0.16
-        rising = ((0.0, y, 0.2), (w, y, h - 0.2))
-        lines = {
-            "crossed": [rising, ((0.0, y - 0.06, h - 0.2), (w, y - 0.06, 0.2))],
-            "single": [rising],
-            "knee": [((0.0, y, h - 0.6), (0.5, y, h)), ((w, y, h - 0.6), (w - 0.5, y, h))],
-        }[self.braces]
+        if self.braces == "knee":
+            t.add_each("brace", [bar((x, 0, h - 0.6), (x + s * 0.5, 0, h), *one) for x, s in ((0.0, 1), (w, -1))])
+            return
+        y = 0.004 + min(-float(one[0][:, 0].min()), float(one[0][:, 0].max()))
+        lines = [((0.0, y, 0.1), (w, y, h - 0.1)), ((0.0, -y, h - 0.1), (w, -y, 0.1))]
         shape = [[0, 0], [side, 0], [side, 0.3 * side], [0.3 * side, side], [0, side]]
         gusset = moved(extrude(np.array(shape), -0.004, 0.004), spun("x", np.pi / 2))
-        for start, end in lines:
+        for start, end in lines[: 2 if self.braces == "crossed" else 1]:
             t.add("brace", bar(start, end, *one))
-            turn = 1.0 if end[0] > start[0] else -1.0
-            t.at(start[0], start[1], start[2] - 0.02).moved(np.diag([turn, 1, 1, 1])).add("gusset plate", gusset)
+            for x, z in ((start[0] + half, start[2]), (end[0] - half, end[2])):
+                sx, sz = np.sign(w / 2 - x), np.sign(h / 2 - z)
+                t.at(x, 0, z - sz * 0.085).moved(np.diag([sx, 1.0, sz, 1.0])).add("gusset plate", gusset)
 
 
 class Caged(Structure, name="ladder/cage", weight=1.5):
@@ -262,11 +265,14 @@ class Flight(Structure, name="stairs/flight", weight=1.5, grain="fitting"):
         run, height = go * self.count, self.rise * self.count
         outline = rounded_rectangle(0.01, 0.2, 0.0) if self.flat else section_channel(0.18, 0.05, 0.006, 0.008)
         sides = [s * wide / 2 for s in BOTH]
-        t.add_each("beam", [bar((0, y, 0.0), (run, y, height), outline, ()) for y in sides])
+        # The strings' axes run through the middles of the treads.
+        lift = self.rise / 2 - 0.04
+        start, rising = -lift * go / self.rise, t.at(0, 0, lift)
+        rising.add_each("beam", [raking((start, y, -lift), (run, y, height), (outline, ())) for y in sides])
         tread = self.tread.solids(go, wide)
         for k in range(self.count):
             t.at((k + 0.5) * go, 0, (k + 1) * self.rise - 0.04).add("stair tread", *tread)
-        own = t.bundled("railing")
+        own = rising.bundled("railing")
         for y in sides if self.railed else ():
             own.add("railing", rod((0, y, 0.95), (run, y, height + 0.95), 0.02, n))
             feet = [(f * run, y, f * height) for f in (0.05, 0.5, 0.95)]

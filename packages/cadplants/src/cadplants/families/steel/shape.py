@@ -36,6 +36,7 @@ __all__ = [
     "lug",
     "mirrored",
     "pipe",
+    "raking",
     "rect",
     "ribbon",
     "section",
@@ -198,6 +199,17 @@ def bar(start: npt.ArrayLike, end: npt.ArrayLike, one: Section, up: npt.ArrayLik
     pose = np.eye(4)
     pose[:3, 0], pose[:3, 1], pose[:3, 2], pose[:3, 3] = frame[:3, 1], frame[:3, 2], frame[:3, 0], a
     return moved(extrude(one[0], 0.0, float(np.linalg.norm(b - a)), one[1]), pose)
+
+
+def raking(start: npt.ArrayLike, end: npt.ArrayLike, one: Section) -> Solid:
+    """A section along a slope, cut level at its start and upright at its end."""
+    a, b = np.asarray(start, float), np.asarray(end, float)
+    solid, way = bar(a, b, one), b - a
+    v = solid.vertices.copy()
+    low = (v - a) @ way < 0.5 * (way @ way)
+    v[low] -= np.outer((v[low, 2] - a[2]) / way[2], way)
+    v[~low] -= np.outer((v[~low, 0] - b[0]) / way[0], way)
+    return Solid(v, solid.faces)
 
 
 def flat(start: npt.ArrayLike, end: npt.ArrayLike, wide: float, thick: float, up: npt.ArrayLike = (0, 0, 1)) -> Solid:

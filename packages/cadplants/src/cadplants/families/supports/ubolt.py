@@ -92,7 +92,7 @@ class OnAngle(_UBolt, name="u-bolt/angle"):
         if self.upper:
             add_nuts(t.spun("x", np.pi), [(0, s * leg, -top) for s in BOTH], d, False)
         t.add(self.taken, bar((0, -reach, top), (0, reach, top), angle if self.hanging else (angle * (-1, 1))[::-1]))
-        edge = (0.55 * side - size / 2) * (-1 if self.hanging else 1)
+        edge = (0.55 * side - size / 2) * (1 if self.hanging else -1)
         for s in BOTH if self.both else (1,):
             at_end = t.at(edge, s * (reach - size / 2))
             at_end.add("post", extrude(rounded_rectangle(size, size, 0.004, 1), foot.top - self.height, top - side))
