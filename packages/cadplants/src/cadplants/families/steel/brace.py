@@ -330,11 +330,13 @@ class Gantry(Structure, name="frame/gantry", label="beam", grain="fitting"):
             low = self.casters.build(t, spots, self.radius)
         else:
             t.add_each("base plate", [box((0.2, 0.2, 0.01), (x, y, 0.005)) for x, y in spots])
-        deep = float(np.ptp(leg[0][:, 1])) / 2
+        deep, knee = float(np.ptp(leg[0][:, 1])) / 2, min(0.5, 0.28 * w)
+        tie = h - knee if self.braced else 0.45 * h  # knee braces end on it
+        reach = 0.06 + (d / 2 - 0.06) * (h - tie) / (h - low - 2 * deep)
         for x, name in zip((0.0, w), self.called, strict=True):
             t.add("beam", bar((x, -d / 2 - 0.1, low + deep), (x, d / 2 + 0.1, low + deep), leg))
             t.add_each("column", [bar((x, s * d / 2, low + 2 * deep), (x, s * 0.06, h), leg) for s in BOTH])
-            t.add(name, bar((x, -0.3 * d, 0.45 * h), (x, 0.3 * d, 0.45 * h), leg))
+            t.add(name, bar((x, -reach, tie), (x, reach, tie), leg))
             t.add("plate", box((0.2, 0.3, 0.015), (x, 0, h + 0.0075)))
         one, top = section(self.runway, self.runway_size, t.style), h + 0.015
         z = top - span_of(one)[2]
@@ -344,8 +346,8 @@ class Gantry(Structure, name="frame/gantry", label="beam", grain="fitting"):
         else:
             trolley(t.at(w / 2, 0, z), self.runway_size, self.runway)
         if self.braced:
-            thin, d = section("SHS", 0.05, t.style), min(0.5, 0.28 * w)
-            t.add_each("brace", [bar((a, 0, h - d), (b, 0, top), thin) for a, b in ((w, w - d), (0.0, d))])
+            thin, ends = section("SHS", 0.05, t.style), ((w, w - knee), (0.0, knee))
+            t.add_each("brace", [bar((a, 0, tie), (b, 0, top), thin) for a, b in ends])
         return t.model()
 
 

@@ -135,7 +135,7 @@ class Caged(Structure, name="ladder/cage", weight=1.5):
             hoop = np.column_stack([0.38 * np.cos(a), -0.36 - 0.36 * np.sin(a), np.zeros(13)])
             hoop = np.vstack([[wide / 2, 0, 0], hoop, [-wide / 2, 0, 0]])
             solid = sweep(hoop, np.array([[0.003, -0.02], [0.003, 0.02], [-0.003, 0.02], [-0.003, -0.02]]))
-            for z in np.arange(2.2, h + 0.01, 0.7):
+            for z in np.linspace(2.2, h, max(2, round((h - 2.2) / 0.7) + 1)):
                 own.at(0, 0, float(z)).add("ladder", solid)
             for x, y, _ in hoop[[1, 4, 7, 10, 13]]:
                 own.add("ladder", box((0.03, 0.005, h - 2.2), (x, y, (h + 2.2) / 2)))

@@ -182,16 +182,17 @@ class MotorSlide(Fitting, name="bracket/motor slide", label=_B):
         if low:
             t.add("foundation", box((length + 0.2, gap + 0.3, low), (0, 0, low / 2)))
         n, rail = few(d, t.style), self._rail(low, top)
-        push, nut = cylinder(d / 2, -0.06, 0.08, n), hexagon(1.6 * d, 0.05, 0.05 + 0.7 * d)
+        # The screws press on the motor's soles.
+        push, nut = cylinder(d / 2, -0.06, 0.29 * length + 0.02, n), hexagon(1.6 * d, 0.05, 0.05 + 0.7 * d)
         for s in BOTH:
             side = t.at(0, s * gap / 2)
             side.add(_B if self.brackets else "plate", rail)
             side.add(_B, box((0.02, wide * 0.5, 0.035), (-0.44 * length, 0, top + 0.0175)))
             screw = [along("x", push), along("-x", nut)]
-            side.at(-0.44 * length, 0, top + 0.02).add("screw", *screw, fine=False)
+            side.at(-0.44 * length, 0, top + 0.009).add("screw", *screw, fine=False)
             for q in (-0.4, 0.4) if self.solid else ():
                 add_bolt(side.at(q * length * 1.1, 0, top - 0.004), d, 0.004, "none")
-        r, foot, inner = 0.32 * gap + 0.02, 0.012, gap / 2 - 0.3 * wide
+        r, foot, inner = 0.32 * gap + 0.02, 0.016, gap / 2 - 0.3 * wide
         for s in BOTH:
             sole = box((0.3 * length, wide, foot), (0.02, s * gap / 2, top + foot / 2))
             t.add(_B, sole, box((0.26 * length, 0.012, 0.7 * r), (0.02, s * inner, top + 0.35 * r)))
