@@ -256,7 +256,8 @@ class Lattice(Structure, name="beam/lattice", weight=1.2):
         spots = {(round(float(p[0]), 4), float(p[2])) for line in lines for p in line} if self.gussets else ()
         for x, z in sorted(spots):
             g, s = 0.09, 1 if z == 0 else -1
-            shape = [(x - g, z), (x + g, z), (x + 0.6 * g, z + s * g), (x - 0.6 * g, z + s * g)]
+            wide = [float(np.clip(x + k * g, 0.0, length)) for k in (-1.0, 1.0, 0.6, -0.6)]
+            shape = list(zip(wide, (z, z, z + s * g, z + s * g), strict=True))
             up.add("gusset plate", slab_xz(shape if s > 0 else shape[::-1], 0.008), own=True)
         self.props.build(t, length, 0.12)
         return t.model()
@@ -269,7 +270,7 @@ class Pitched(Structure, name="beam/pitched truss", weight=0.7):
     timber: bool = chance(0.5, "of timber, not steel")
     pitch: float = between(0.15, 0.35, "height / length")
     steel: str = among(("L", "SHS", "T"), "section of steel chords", when=lambda p: not p.timber)
-    struts: tuple[bool, ...] = several(yes(0.5), 2, "whether a half has a second strut")
+    second: bool = chance(0.5, "a second strut in each half")
     plated: bool = chance(0.7, "with plates at feet and ridge")
     props: Props = nested(Props, _ON)
 
@@ -281,8 +282,8 @@ class Pitched(Structure, name="beam/pitched truss", weight=0.7):
         ridge, middle = np.array([length / 2, 0, length * self.pitch]), np.array([length / 2, 0, 0.0])
         chords = [(feet[0], feet[1]), (feet[0], ridge), (feet[1], ridge)]
         struts = [(middle, ridge)]
-        for foot, second in zip(feet, self.struts, strict=True):
-            struts += [(middle, (foot + ridge) / 2), ((foot + middle) / 2, (foot + ridge) / 2)][: 1 + second]
+        for foot in feet:
+            struts += [(middle, (foot + ridge) / 2), ((foot + middle) / 2, (foot + ridge) / 2)][: 1 + self.second]
         x0, x1, _y0, y1 = span_of(chord)
         up = t.at(0, 0, self.props.top).at(0, 0, y1).bundled("beam")
         for name, lines, one in (("beam", chords, chord), ("brace", struts, web)):
