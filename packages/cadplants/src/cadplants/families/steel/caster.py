@@ -219,7 +219,8 @@ class Casters(Params):
             make, here = self.makes[k % len(self.makes)], t.at(x, y, high).spun("z", how.turn)
             (self.fixed if make == "fixed" else self.swivel).build(here, r, make)
             if how.bolted:
-                bolts(here, [at(sx * 0.8 * r, sy * 0.6 * r, 0.005) for sx, sy in CORNERS], 0.1 * r, 0.006)
+                down = spun("x", np.pi)  # from below, through the caster's plate into what it carries
+                bolts(here, [at(sx * 0.8 * r, sy * 0.6 * r, -0.06 * r) @ down for sx, sy in CORNERS], 0.1 * r, 0.006)
         return high
 
 
