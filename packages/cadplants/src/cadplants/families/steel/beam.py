@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import itertools
+from typing import Any
+
 import numpy as np
 
 from cadgraph.model.scene import Floats
@@ -11,6 +14,7 @@ from cadplants.builder.params import among, between, chance, nested, several, wh
 from cadplants.builder.table import Table
 from cadplants.families.steel.shape import (
     ROLLED,
+    RUNWAYS,
     Base,
     Props,
     Section,
@@ -18,11 +22,14 @@ from cadplants.families.steel.shape import (
     bar,
     bolts,
     few_sides,
+    flat,
+    lug,
     mirrored,
     section,
     slab_xz,
     slab_yz,
     span_of,
+    trolley,
 )
 from cadplants.family import Model
 from cadplants.polygon import circle, rounded_rectangle
@@ -41,7 +48,9 @@ class _Plain(Structure, grain="fitting"):
     size: float = between(0.08, 0.32, "height of the section", "m")
     count: int = whole(1, 3, "beams side by side")
     shape: str = among(ROLLED, "section")
-    pitch: float = between(1.0, 2.0, "from beam to beam / width of the section")
+    pitch: float = between(
+        1.0, 2.0, "from beam to beam / width of the section", when=lambda p: p.count > 1, otherwise=1.0
+    )
     ends: str = among(("bare", "plates", "cleats"), "what is at the ends of one beam", when=lambda p: p.count == 1)
     props: Props = nested(Props, _ON)
 
@@ -247,7 +256,8 @@ class Lattice(Structure, name="beam/lattice", weight=1.2):
         spots = {(round(float(p[0]), 4), float(p[2])) for line in lines for p in line} if self.gussets else ()
         for x, z in sorted(spots):
             g, s = 0.09, 1 if z == 0 else -1
-            shape = [(x - g, z), (x + g, z), (x + 0.6 * g, z + s * g), (x - 0.6 * g, z + s * g)]
+            wide = [float(np.clip(x + k * g, 0.0, length)) for k in (-1.0, 1.0, 0.6, -0.6)]
+            shape = list(zip(wide, (z, z, z + s * g, z + s * g), strict=True))
             up.add("gusset plate", slab_xz(shape if s > 0 else shape[::-1], 0.008), own=True)
         self.props.build(t, length, 0.12)
         return t.model()
@@ -260,7 +270,7 @@ class Pitched(Structure, name="beam/pitched truss", weight=0.7):
     timber: bool = chance(0.5, "of timber, not steel")
     pitch: float = between(0.15, 0.35, "height / length")
     steel: str = among(("L", "SHS", "T"), "section of steel chords", when=lambda p: not p.timber)
-    struts: tuple[bool, ...] = several(yes(0.5), 2, "whether a half has a second strut")
+    second: bool = chance(0.5, "a second strut in each half")
     plated: bool = chance(0.7, "with plates at feet and ridge")
     props: Props = nested(Props, _ON)
 
@@ -272,8 +282,8 @@ class Pitched(Structure, name="beam/pitched truss", weight=0.7):
         ridge, middle = np.array([length / 2, 0, length * self.pitch]), np.array([length / 2, 0, 0.0])
         chords = [(feet[0], feet[1]), (feet[0], ridge), (feet[1], ridge)]
         struts = [(middle, ridge)]
-        for foot, second in zip(feet, self.struts, strict=True):
-            struts += [(middle, (foot + ridge) / 2), ((foot + middle) / 2, (foot + ridge) / 2)][: 1 + second]
+        for foot in feet:
+            struts += [(middle, (foot + ridge) / 2), ((foot + middle) / 2, (foot + ridge) / 2)][: 1 + self.second]
         x0, x1, _y0, y1 = span_of(chord)
         up = t.at(0, 0, self.props.top).at(0, 0, y1).bundled("beam")
         for name, lines, one in (("beam", chords, chord), ("brace", struts, web)):
@@ -309,35 +319,72 @@ class Heavy(Structure, name="beam/concrete or timber", weight=0.8, grain="fittin
         return t.model()
 
 
+def _on_rack(p: Any) -> bool:
+    return bool(p.racked)
+
+
 class Stack(Structure, name="beam/stack", weight=0.8, grain="fitting"):
-    """A store of profiles: layers of beams or tubes between battens, or on a cantilever rack."""
+    """A store of profiles: layers of beams or tubes between battens, or on the arms of a cantilever rack."""
 
     length: float = between(1.0, 5.0, "of a profile", "m")
     size: float = between(0.06, 0.2, "height of the section", "m")
     shape: str = among((*ROLLED, "L", "T", "C", "strut"), "section")
     columns: int = whole(2, 5, "profiles side by side")
     layers: int = whole(1, 3, "one above the other")
-    batten: float = among((0.05, 0.08), "side of a batten", "m")
+    racked: bool = chance(0.4, "on a cantilever rack, not between battens")
+    batten: float = among((0.05, 0.08), "side of a batten", "m", when=lambda p: not p.racked)
+    upright: str = among(("I", "H", "SHS"), "section of the rack's uprights", when=_on_rack)
+    pitch: float = between(
+        0.15, 0.4, "free height over the profiles on an arm", "m", when=lambda p: p.racked and p.layers > 1
+    )
     shifts: tuple[float, ...] = several(
         number(-0.05, 0.05), lambda p: p.layers * p.columns, "how far a profile lies out of line", "m"
     )
 
     def build(self, t: Table) -> Model:
-        length, batten, one = self.length, self.batten, section(self.shape, self.size, t.style)
+        length, one = self.length, section(self.shape, self.size, t.style)
         x0, x1, y0, y1 = span_of(one)
         wide = x1 - x0 + 0.003
-        for k in range(self.layers):
-            low = t.at(0, 0, k * (y1 - y0 + batten))
-            for x in (0.15 * length, 0.85 * length):
-                low.add("beam", box((batten, self.columns * wide + 0.1, batten), (x, 0, batten / 2)), of="safety")
+        lows = self._rack(t, y1 - y0, wide) if self.racked else self._battens(t, y1 - y0, wide)
+        for k, low in enumerate(lows):
             for j, x in enumerate(self.shifts[k * self.columns : (k + 1) * self.columns]):
                 y = (j - (self.columns - 1) / 2) * wide - (x0 + x1) / 2
-                low.add("beam", bar((x, y, batten - y0), (length + x, y, batten - y0), one))
+                t.add("beam", bar((x, y, low - y0), (length + x, y, low - y0), one))
         return t.model()
+
+    def _battens(self, t: Table, tall: float, wide: float) -> list[float]:
+        """Puts battens down under each layer; the heights of their tops [m]."""
+        b, lows = self.batten, [k * (tall + self.batten) for k in range(self.layers)]
+        for z in lows:
+            for x in (0.15 * self.length, 0.85 * self.length):
+                t.add("beam", box((b, self.columns * wide + 0.1, b), (x, 0, z + b / 2)), of="safety")
+        return [z + b for z in lows]
+
+    def _rack(self, t: Table, tall: float, wide: float) -> list[float]:
+        """Puts uprights with feet, arms with stops and bracing down; the heights of the arms' tops [m]."""
+        deep, arm, half = self.columns * wide + 0.06, 0.09, 0.09
+        lows = [0.35 + k * (tall + self.pitch + arm) for k in range(self.layers)]
+        back, top, front = -deep / 2 - half, lows[-1] + tall + 0.15, deep / 2
+        shaft, thin = section(self.upright, 2 * half, t.style), section("I", arm, t.style)
+        xs = [float(x) for x in np.linspace(0.12, 0.88, 2 if self.length < 3 else 3) * self.length]
+        for x in xs:
+            t.add("column", bar((x, back, 0), (x, back, top), shaft, (0, 1, 0)))
+            t.add("beam", bar((x, -deep / 2, half), (x, front + 0.1, half), shaft))
+            arms = [bar((x, -deep / 2, z - arm / 2), (x, front, z - arm / 2), thin) for z in lows]
+            t.add_each("bracket", arms, of="steel")
+            t.add_each("plate", [box((0.05, 0.01, arm + 0.06), (x, front + 0.005, z - arm / 2 + 0.03)) for z in lows])
+        tie, side = section("SHS", 0.05, t.style), span_of(shaft)[1]
+        for a, b in itertools.pairwise(xs):
+            a, b = a + side, b - side
+            t.add_each("brace", [bar((a, back, z), (b, back, z), tie) for z in (0.15, top - 0.1)])
+        a, b = xs[0] + side, xs[1] - side
+        for (z, up), y in zip(((0.2, top - 0.15), (top - 0.15, 0.2)), (back - 0.004, back + 0.004), strict=True):
+            t.add("brace", flat((a, y, z), (b, y, up), 0.05, 0.006))
+        return lows
 
 
 class Cantilever(Structure, name="beam/cantilever", grain="fitting"):
-    """A beam cantilevered from a wall or column by an end plate, with a knee brace, a hoist eye or a trolley rail."""
+    """A beam cantilevered from a wall or column by an end plate, with a knee brace, a hoist eye or a trolley."""
 
     reach: float = between(0.5, 2.5, "of the beam", "m")
     height: float = between(1.2, 2.8, "of the beam's middle", "m")
@@ -348,6 +395,9 @@ class Cantilever(Structure, name="beam/cantilever", grain="fitting"):
     base: Base = nested(Base, "base plate", when=lambda p: not p.wall)
     braced: bool = chance(0.6, "with a knee brace")
     brace: str = among(("L", "SHS", "CHS", "flat"), "section of the brace", when=lambda p: p.braced)
+    carries: str = among(
+        lambda p: ("nothing", "eye", "trolley")[: 3 if p.shape in RUNWAYS else 2], "what hangs at its end"
+    )
 
     def build(self, t: Table) -> Model:
         z, one = self.height, section(self.shape, self.size, t.style)
@@ -359,13 +409,19 @@ class Cantilever(Structure, name="beam/cantilever", grain="fitting"):
             shaft = section(self.shaft, 0.2, t.style)
             t.add("column", bar((-0.1, 0, low), (-0.1, 0, z + 0.5), shaft, (1, 0, 0)))
         w, h = x1 - x0 + 0.08, y1 - y0 + 0.1
-        t.add("plate", box((0.015, w, h), (0.0075, 0, z)))
-        spots = [at(0.015, sy * (w / 2 - 0.02), z + sz * (h / 2 - 0.025)) @ spun("y", np.pi / 2) for sy, sz in CORNERS]
-        bolts(t, spots, 0.014, 0.015)
+        here = t.at(0, (x0 + x1) / 2, z)
+        here.add("plate", box((0.015, w, h), (0.0075, 0, 0)))
+        spots = [at(0.015, sy * (w / 2 - 0.02), sz * (h / 2 - 0.025)) @ spun("y", np.pi / 2) for sy, sz in CORNERS]
+        bolts(here, spots, 0.014, 0.015)
         t.add("beam", bar((0.015, 0, z), (self.reach, 0, z), one))
+        if self.carries == "eye":
+            t.at(self.reach - 0.1, 0, z + y0).spun("x", np.pi).add("lifting lug", lug(t.style, 0.07, 0.015), of="steel")
+        elif self.carries == "trolley":
+            t.add("plate", box((0.01, 2 * x1, y1 - y0 + 0.02), (self.reach + 0.005, 0, z)))
+            trolley(t.at(self.reach - 0.7 * self.size, 0, z), self.size, self.shape)
         if self.braced:
-            drop = min(0.6 * self.reach, 0.8)
-            t.add("brace", bar((0.0, 0, z + y0 - drop), (drop, 0, z + y0), section(self.brace, 0.06, t.style)))
+            drop, knee = min(0.5 * self.reach, 0.8), section(self.brace, 0.06, t.style)
+            t.add("brace", bar((0.0, 0, z + y0 - drop), (drop, 0, z + y0), knee))
         return t.model()
 
 

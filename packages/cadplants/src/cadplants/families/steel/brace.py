@@ -13,6 +13,7 @@ from cadplants.builder.params import Params, among, between, chance, given, nest
 from cadplants.builder.table import Table
 from cadplants.families.steel.caster import Casters
 from cadplants.families.steel.shape import (
+    RUNWAYS,
     Base,
     Section,
     Structure,
@@ -28,6 +29,7 @@ from cadplants.families.steel.shape import (
     slab_xy,
     slab_xz,
     span_of,
+    trolley,
 )
 from cadplants.family import Model
 from cadplants.mesh_ops import Solid, moved
@@ -122,11 +124,11 @@ class _Braced(Structure, grain="fitting"):
     width: float = between(1.2, 3.2, "of the bay", "m")
     height: float = between(1.6, 3.4, "of the bay", "m")
     bay: _Bay = nested(_Bay, "columns and beam")
-    gusset: float = between(0.14, 0.26, "side of a gusset plate", "m")
     gussets: tuple[str, ...] = _gussets(2)
+    gusset: float = between(0.14, 0.26, "side of a gusset plate", "m", when=lambda p: len(p.gussets) > 0)
     brace: str = among(("rod", "angles", "tube", "flat", "angle"), "what the braces are")
-    tube: str = among(("CHS", "SHS"), "section of tubes")
-    size: float = between(0.05, 0.09, "height of a tube or an angle", "m")
+    tube: str = among(("CHS", "SHS"), "section of tubes", when=lambda p: p.brace == "tube", otherwise="L")
+    size: float = between(0.05, 0.09, "height of a tube or an angle", "m", when=lambda p: p.brace in ("tube", "angle"))
     members: tuple[_Member, ...] = _members(2)
 
     def build(self, t: Table) -> Model:
@@ -134,7 +136,7 @@ class _Braced(Structure, grain="fitting"):
         lines, corners, g = self._lines(t, half, top), self._corners(half, top), self.gusset
         for corner, form in zip(corners, self.gussets, strict=True):
             self._gusset(t, corner, form)
-        one = section(self.tube if self.brace == "tube" else "L", self.size, t.style)
+        one = section(self.tube, self.size or 0.06, t.style)
         by = 0.0144 if len(corners) == 4 else 0.0
         for k, (line, member) in enumerate(zip(lines, self.members, strict=True)):
             member.build(t, line, one, (-1) ** k, by, knee=not corners)
@@ -243,8 +245,8 @@ class Rack(Structure, name="frame/pipe rack", label="beam", weight=1.2, grain="f
     strut_size: float = between(0.08, 0.14, "height of a strut's section", "m")
     strut: str = among(("SHS", "U", "I"), "section of the struts")
     tiers: int = whole(1, 3, "one above the other")
-    arm: float = between(0.4, 0.8, "length of a cantilever, if it has such", "m")
     armed: bool = among((False, True), "with cantilevers")
+    arm: float = between(0.4, 0.8, "length of a cantilever", "m", when=lambda p: p.armed)
     bases: tuple[Base, ...] = bases(4)
     sides: tuple[_Side, ...] = several(made(_Side), 2, "between the frames")
     pipes: tuple[_Pipe, ...] = several(
@@ -286,12 +288,12 @@ def _on_casters(p: Any) -> bool:
 class Gantry(Structure, name="frame/gantry", label="beam", grain="fitting"):
     """A lifting gantry or tripod: splayed legs with ties, a runway beam with an eye or trolley, on casters or feet."""
 
-    width: float = between(1.2, 3.0, "along the runway", "m")
+    tripod: bool = chance(0.3, "three legs that meet")
+    width: float = between(1.2, 3.0, "along the runway", "m", when=_is_portal)
     height: float = between(1.6, 3.0, "of the legs", "m")
-    depth: float = between(0.8, 1.4, "of the feet's spread", "m")
+    depth: float = between(0.8, 1.4, "of the feet's spread", "m", when=_is_portal)
     leg_size: float = between(0.06, 0.1, "height of a leg's section", "m")
     leg: str = among(("SHS", "CHS", "U", "L"), "section of the legs")
-    tripod: bool = chance(0.3, "three legs that meet")
     ties: tuple[bool, ...] = several(
         yes(0.8), 3, "whether a tie is between two legs of a tripod", when=lambda p: p.tripod
     )
@@ -301,8 +303,8 @@ class Gantry(Structure, name="frame/gantry", label="beam", grain="fitting"):
     casters: Casters = nested(Casters, "casters", fixed=lambda p: {"makes": (p.make,)}, when=_on_casters)
     called: tuple[str, ...] = several(one_of("brace", "beam"), 2, "what a tie is called", when=_is_portal)
     runway_size: float = between(0.12, 0.24, "height of the runway's section", "m", when=_is_portal)
-    runway: str = among(("I", "IPN", "H"), "section of the runway", when=_is_portal)
-    eyed: bool = chance(0.6, "a lifting eye under the runway", when=_is_portal)
+    runway: str = among(RUNWAYS, "section of the runway", when=_is_portal)
+    eyed: bool = chance(0.5, "a lifting eye under the runway, not a trolley on it", when=_is_portal)
     braced: bool = chance(0.5, "knee braces to the runway", when=_is_portal)
 
     def build(self, t: Table) -> Model:
@@ -328,20 +330,24 @@ class Gantry(Structure, name="frame/gantry", label="beam", grain="fitting"):
             low = self.casters.build(t, spots, self.radius)
         else:
             t.add_each("base plate", [box((0.2, 0.2, 0.01), (x, y, 0.005)) for x, y in spots])
-        deep = float(np.ptp(leg[0][:, 1])) / 2
+        deep, knee = float(np.ptp(leg[0][:, 1])) / 2, min(0.5, 0.28 * w)
+        tie = h - knee if self.braced else 0.45 * h  # knee braces end on it
+        reach = 0.06 + (d / 2 - 0.06) * (h - tie) / (h - low - 2 * deep)
         for x, name in zip((0.0, w), self.called, strict=True):
             t.add("beam", bar((x, -d / 2 - 0.1, low + deep), (x, d / 2 + 0.1, low + deep), leg))
             t.add_each("column", [bar((x, s * d / 2, low + 2 * deep), (x, s * 0.06, h), leg) for s in BOTH])
-            t.add(name, bar((x, -0.3 * d, 0.45 * h), (x, 0.3 * d, 0.45 * h), leg))
+            t.add(name, bar((x, -reach, tie), (x, reach, tie), leg))
             t.add("plate", box((0.2, 0.3, 0.015), (x, 0, h + 0.0075)))
         one, top = section(self.runway, self.runway_size, t.style), h + 0.015
         z = top - span_of(one)[2]
         t.add("beam", bar((-0.3, 0, z), (w + 0.3, 0, z), one))
         if self.eyed:
-            t.at(w * 0.4, 0, top).spun("x", np.pi).add("lifting lug", lug(t.style, 0.08, 0.02), of="steel")
+            t.at(w / 2, 0, top).spun("x", np.pi).add("lifting lug", lug(t.style, 0.08, 0.02), of="steel")
+        else:
+            trolley(t.at(w / 2, 0, z), self.runway_size, self.runway)
         if self.braced:
-            thin, ends = section("SHS", 0.05, t.style), ((w, w - 0.5), (0.0, 0.5))
-            t.add_each("brace", [bar((a, 0, h - 0.5), (b, 0, top), thin) for a, b in ends])
+            thin, ends = section("SHS", 0.05, t.style), ((w, w - knee), (0.0, knee))
+            t.add_each("brace", [bar((a, 0, tie), (b, 0, top), thin) for a, b in ends])
         return t.model()
 
 
@@ -415,22 +421,26 @@ def _flat(p: Any) -> bool:
 class _Plate(Params):
     """A loose plate."""
 
-    length: float = between(0.1, 0.9, "along x", "m")
-    width: float = between(0.08, 0.6, "along y", "m")
-    thick: float = among((0.004, 0.008, 0.012, 0.02), "thickness", "m")
     form: str = among(("plain", "clipped", "round", "cut off", "bent", "channel"), "how it is made")
+    length: float = between(0.1, 0.9, "along x", "m", when=lambda p: p.form != "round")
+    width: float = between(0.08, 0.6, "along y, or diameter of a round one", "m")
+    thick: float = among((0.004, 0.008, 0.012, 0.02), "thickness", "m")
     rounded: bool = among((False, True), "its corners are round", when=of_form("plain"))
     called: str = among(
         ("plate", "plate", "bracket"), "what it is called", when=lambda p: not _flat(p), otherwise="plate"
     )
-    drilled: bool = chance(0.6, "with holes, but for one cut off", when=_flat)
-    lies: str = among(("on a wall", "stacked", "ribbed", "plain"), "how it lies", when=_flat)
+    drilled: bool = chance(0.6, "with holes", when=of_form("plain", "clipped", "round"))
+    lies: str = among(
+        lambda p: ("on a wall", "stacked", "plain", "ribbed")[: 4 if p.form in ("plain", "clipped") else 3],
+        "how it lies",
+        when=_flat,
+    )
     count: int = whole(2, 5, "plates of a stack", when=lambda p: p.lies == "stacked")
     shifts: tuple[float, ...] = several(number(-0.02, 0.02), lambda p: p.count, "how far one is out of line", "m")
 
     def build(self, t: Table) -> None:
         """Puts it down about z."""
-        a, b, thick = self.length, self.width, self.thick
+        a, b, thick = self.length or self.width, self.width, self.thick
         c, half = 0.2 * min(a, b), (a / 2, b / 2)
         if not _flat(self):
             line = [(-a / 2, 0.5 * c), (-a / 2, 0.0), (a / 2, 0.0), (a / 2, c)]
@@ -445,9 +455,8 @@ class _Plate(Params):
             "round": circle(y, few_sides(t.style, y, 40)),
             "cut off": np.array([[-x, -y], [x, -y], [x, -0.1 * b], [-0.1 * a, y], [-x, y]]),
         }[self.form]
-        spots = [(sx * 0.28 * (b if self.form == "round" else a), sy * 0.28 * b) for sx, sy in CORNERS]
-        drilled = self.drilled and self.form != "cut off"
-        holes = tuple(circle(0.06 * min(a, b), 10, spot) for spot in spots) if drilled else ()
+        spots = [(sx * 0.28 * a, sy * 0.28 * b) for sx, sy in CORNERS]
+        holes = tuple(circle(0.06 * min(a, b), 10, spot) for spot in spots) if self.drilled else ()
         solid = slab_xy(shape, 0, thick, holes)
         if self.lies == "on a wall":
             t.add("wall", box((a + 0.3, 0.15, b + 0.3), (0, 0.175, (b + 0.3) / 2)))
@@ -456,7 +465,7 @@ class _Plate(Params):
             t.add_each("plate", [moved(solid, at(shift, 0, k * thick)) for k, shift in enumerate(self.shifts)])
         else:
             t.add("plate", solid)
-            if self.lies == "ribbed" and self.form in ("plain", "clipped"):
+            if self.lies == "ribbed":
                 ribs = [box((0.7 * a, 0.008, 0.06), (0, s * 0.18 * b, thick + 0.03)) for s in BOTH]
                 t.add_each("plate", ribs)
 

@@ -112,7 +112,7 @@ class Caster(Params):
     """A caster that hangs from z = 0 (EN 12532, EN 12533)."""
 
     make: str = given("swivel", "swivel, braked, fixed, heavy, stem, twin or levelling")
-    wide: float = between(0.45, 0.8, "width of its wheel / radius")
+    wide: float = between(0.45, 0.8, "width of its wheel / radius", when=lambda p: p.make != "twin")
     trail: float = between(
         0.3, 0.7, "from the axis that it swivels about to the wheel's / radius", when=lambda p: p.make != "fixed"
     )
@@ -120,6 +120,7 @@ class Caster(Params):
     wheel: str = among(
         lambda p: ("solid", "spoked", "tread") if p.make == "heavy" else ("solid", "tread", "plain", "tread"),
         "how its wheel is made",
+        when=lambda p: p.make != "twin",
     )
     joined: bool = chance(0.45, "in one mesh")
 
@@ -217,8 +218,9 @@ class Casters(Params):
         for k, ((x, y), how) in enumerate(zip(spots, (*self.still, *self.turned), strict=True)):
             make, here = self.makes[k % len(self.makes)], t.at(x, y, high).spun("z", how.turn)
             (self.fixed if make == "fixed" else self.swivel).build(here, r, make)
-            if how.bolted and t.style.fasteners != "pieces":
-                bolts(here, [at(sx * 0.8 * r, sy * 0.6 * r, 0.005) for sx, sy in CORNERS], 0.1 * r, 0.006)
+            if how.bolted:
+                down = spun("x", np.pi)  # from below, through the caster's plate into what it carries
+                bolts(here, [at(sx * 0.8 * r, sy * 0.6 * r, -0.06 * r) @ down for sx, sy in CORNERS], 0.1 * r, 0.006)
         return high
 
 

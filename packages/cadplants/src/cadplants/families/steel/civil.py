@@ -40,32 +40,38 @@ def _frustum(low: Floats, high: Floats, z: tuple[float, float]) -> Solid:
     return weld([loft([ends[0], *loops, ends[1]])])
 
 
+_ON_TOP = ("anchors", "bare", "sole plates", "grout")
+_ON_TOP_OF = {"chamfered": 4, "battered": 4, "recessed": 2}
+
+
 class Plinth(Structure, name="foundation/plinth", weight=1.4, grain="fitting"):
     """Equipment plinths: chamfered, battered, with a step or recess, round; with grout, sole plates and anchors."""
 
-    length: float = between(0.4, 2.4, "of the plinth", "m")
-    width: float = between(0.3, 1.4, "of the plinth", "m")
-    height: float = between(0.08, 0.8, "of the plinth", "m")
     form: str = among(("chamfered", "battered", "stepped", "round", "recessed"), "how it is made")
+    length: float = between(0.4, 2.4, "of the plinth, or diameter", "m")
+    width: float = between(0.3, 1.4, "of the plinth", "m", when=lambda p: p.form != "round")
+    height: float = between(0.08, 0.8, "of the plinth", "m")
     slabbed: bool = chance(0.4, "a slab under it")
     slab: str = among(("ground", "foundation"), "what the slab is called", when=lambda p: p.slabbed)
-    top: str = among(("anchors", "sole plates", "grout", "bare"), "what is on it")
+    top: str = among(lambda p: _ON_TOP[: _ON_TOP_OF.get(p.form, 3)], "what is on it")
     anchor: float = among((0.012, 0.016, 0.02), "diameter of an anchor", "m", when=lambda p: p.top == "anchors")
 
     def build(self, t: Table) -> Model:
         a, b, h, form = self.length, self.width, self.height, self.form
         t.add("foundation", self._block(t))
-        b = a if form == "round" else b
+        b = b or a
         if self.slabbed:
             t.add(self.slab, box((a + 0.8, b + 0.8, 0.15), (0, 0, -0.075)), of="concrete")
-        shift, reach = (0.25 * a, 0.18 * a) if form == "stepped" else (0.0, 0.3 * a)
-        spots = [(shift + sx * reach, sy * 0.32 * b) for sx, sy in CORNERS]
+        shift, reach = (0.25 * a, 0.14 * a) if form == "stepped" else (0.0, 0.3 * a if form == "recessed" else 0.26 * a)
+        deep = (0.32 if form == "recessed" else 0.26) * b
+        spots = [(shift + sx * reach, sy * deep) for sx, sy in CORNERS]
         if self.top == "anchors":
             bolts(t, [at(x, y, h) for x, y in spots], self.anchor, 0.03)
-        elif self.top == "sole plates" and form != "recessed":
-            t.add_each("base plate", [box((0.16, 0.12, 0.02), (x, y, h + 0.01)) for x, y in spots])
+        elif self.top == "sole plates":
+            size = (min(0.16, 1.2 * reach), min(0.12, 1.2 * deep), 0.02)
+            t.add_each("base plate", [box(size, (x, y, h + 0.01)) for x, y in spots])
             bolts(t, [at(x, y, h + 0.02) for x, y in spots], 0.014, 0.02)
-        elif self.top == "grout" and form in ("chamfered", "battered"):
+        elif self.top == "grout":
             t.add("foundation", box((0.8 * a, 0.8 * b, 0.03), (0, 0, h + 0.015)), of="ground")
             t.add("base plate", box((0.74 * a, 0.74 * b, 0.015), (0, 0, h + 0.0375)))
         return t.model()
@@ -163,9 +169,9 @@ def _carrying(p: Any) -> bool:
 class Strip(Structure, name="foundation/strip", grain="fitting"):
     """Sleepers and strips: a row of sleepers, an upturned T strip, a raft with ribs, precast blocks under a beam."""
 
-    long: float = between(0.6, 2.0, "length of a strip", "m")
-    count: int = whole(2, 4, "strips")
     form: str = among(("sleepers", "T strips", "raft", "blocks"), "how they are made")
+    long: float = between(0.6, 2.0, "length of a strip", "m", when=lambda p: p.form != "blocks")
+    count: int = whole(2, 4, "strips")
     wide: float = between(0.15, 0.5, "width of a strip", "m")
     height: float = between(0.15, 0.5, "of a strip", "m")
     gap: float = between(0.8, 1.6, "from strip to strip", "m")
@@ -279,11 +285,11 @@ class Clad(Structure, name="wall/clad", grain="fitting"):
 class Bund(Structure, name="wall/bund", grain="fitting"):
     """A bund: low walls round a slab with a sump and a kerb or ramp, rectangular, L-shaped or round."""
 
+    form: str = among(("rectangle", "L", "round"), "of its plan")
     length: float = between(1.2, 4.0, "of the bund", "m")
-    width: float = between(1.0, 3.0, "of the bund", "m")
+    width: float = between(1.0, 3.0, "of the bund", "m", when=lambda p: p.form != "round")
     height: float = between(0.15, 1.0, "of the walls", "m")
     thick: float = between(0.1, 0.25, "thickness of the walls", "m")
-    form: str = among(("rectangle", "L", "round"), "of its plan")
     joined: bool = chance(0.5, "the walls are one mesh", when=lambda p: p.form != "round")
     plated: bool = chance(0.5, "a plate on its front", when=lambda p: p.form != "round")
 

@@ -124,7 +124,7 @@ class Concrete(Structure, name="column/concrete", weight=0.8, grain="fitting"):
     height: float = between(1.2, 4.0, "of the column", "m")
     width: float = between(0.2, 0.6, "of the column", "m")
     form: str = among(("square", "round", "octagonal", "mushroom"), "how it is made")
-    longer: float = among((1.0, 1.5), "one side / the other, if it has sides")
+    longer: float = among((1.0, 1.5), "one side / the other", when=of_form("square"), otherwise=1.0)
     corbelled: bool = chance(0.6, "a corbel with a beam", when=of_form("square"))
     beam: str = among(("H", "I"), "section of that beam", when=lambda p: p.corbelled)
     footed: bool = chance(0.5, "on a foundation")
@@ -188,7 +188,7 @@ class BuiltUp(Structure, name="column/built up", grain="fitting"):
     width: float = between(0.15, 0.35, "of the column", "m")
     base: Base = nested(Base, "base plate")
     form: str = among(("cruciform", "double I", "box", "portal leg"), "how it is made")
-    joined: bool = chance(0.5, "in one mesh")
+    joined: bool = chance(0.5, "in one mesh", when=lambda p: p.form != "cruciform")
     cap: _Cap = nested(_Cap, "what is on top")
 
     def build(self, t: Table) -> Model:

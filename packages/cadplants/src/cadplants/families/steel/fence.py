@@ -333,8 +333,8 @@ class Leaf(Params):
 class _Swung(Params):
     """A leaf of a swing gate."""
 
-    angle: float = between(0.2, 1.5, "how far it stands open, if it does", "rad")
     opened: bool = among((False, False, True), "it stands open")
+    angle: float = between(0.2, 1.5, "how far it stands open", "rad", when=lambda p: p.opened)
     leaf: Leaf = nested(Leaf, "leaf")
     joined: bool = chance(0.65, _JOINED)
     latched: bool = chance(0.6, "with a latch")
@@ -360,7 +360,7 @@ class Swing(Structure, name="gate/swing", weight=1.3, grain="fitting"):
         pins += [box((0.06, 0.012, 0.03), (0.02, 0, z)) for z in levels]
         for k, one in enumerate(self.leaves):
             here = t.at(half - 0.01) if k == 0 else t.at(total + 0.18 - half + 0.01).moved(np.diag([-1.0, 1, 1, 1]))
-            here = here.spun("z", one.angle if one.opened else 0.0)
+            here = here.spun("z", one.angle)
             _whole(here, "gate", one.leaf.solids(0.06, w, low, h, t.style), one.joined, "gate")
             here.add("bracket", *pins)
             if one.latched:
@@ -411,8 +411,8 @@ class Boom(Structure, name="gate/boom", weight=0.8, grain="fitting"):
 
     length: float = between(2.0, 4.5, "of the arm", "m")
     height: float = between(0.85, 1.05, "of the arm", "m")
-    angle: float = between(0.3, 1.4, "how far the arm is up, if it is", "rad")
     lifted: bool = among((False, False, True), "the arm is up")
+    angle: float = between(0.3, 1.4, "how far the arm is up", "rad", when=lambda p: p.lifted)
     housing: str = among(("control panel", "post"), "what the housing is called")
     arm: str = among(("CHS", "RHS", "SHS"), "section of the arm")
     skirted: bool = chance(0.4, "a skirt of bars below the arm")
@@ -430,8 +430,7 @@ class Boom(Structure, name="gate/boom", weight=0.8, grain="fitting"):
             solids.append(rod((0.3, 0, -0.6), (long - 0.05, 0, -0.6), 0.008, 6))
         if self.weighted:
             solids.append(box((0.2, 0.12, 0.2), (-0.35, 0, 0)))
-        lift = -self.angle if self.lifted else 0.0
-        _whole(t.at(0.05, -0.18, h).spun("y", lift), "gate", solids, self.joined, "gate")
+        _whole(t.at(0.05, -0.18, h).spun("y", -self.angle), "gate", solids, self.joined, "gate")
         if not self.lifted:
             tall = h - 0.045
             t.add("post", box((0.08, 0.08, tall), (long - 0.1, -0.18, tall / 2)), of="safety")
@@ -487,8 +486,8 @@ class RailingGate(Structure, name="gate/railing", grain="fitting"):
     right: float = between(0.5, 1.2, "length of railing beyond the gate", "m")
     bases: tuple[Base, ...] = bases(4)
     sheeted: bool = chance(0.3, "a sheet in the gate")
-    angle: float = between(0.3, 1.4, "how far it stands open, if it does", "rad")
     opened: bool = among((False, True), "it stands open")
+    angle: float = between(0.3, 1.4, "how far it stands open", "rad", when=lambda p: p.opened)
     joined: bool = chance(0.65, _JOINED)
 
     def build(self, t: Table) -> Model:
@@ -503,7 +502,7 @@ class RailingGate(Structure, name="gate/railing", grain="fitting"):
         solids = [pipe(bow, 0.016, style), pipe([(0.07, 0, 0.7 * h), (w, 0, 0.7 * h)], 0.012, style)]
         if self.sheeted:
             solids.append(box((w - 0.1, 0.004, 0.4 * h), (w / 2 + 0.03, 0, 0.7 * h)))
-        pose = spun("z", self.angle if self.opened else 0.0)
+        pose = spun("z", self.angle)
         _whole(t.moved(pose), "gate", solids, self.joined, "gate")
         for z in (0.5 * h, h - 0.06):
             lug = moved(box((0.06, 0.012, 0.05), (0.05, 0, z)), pose)

@@ -130,7 +130,7 @@ class Panels(Structure, name="grating/panels", weight=1.5, grain="fitting"):
     )
     size: float = between(0.06, 0.12, "height of a bearer's section", "m", when=lambda p: not p.stacked)
     bearer: str = among(("L", "U", "SHS", "I", "T"), "section of the bearers", when=lambda p: not p.stacked)
-    clipped: bool = chance(0.5, "with clips, if bars are to be clipped", when=lambda p: not p.stacked)
+    clipped: bool = chance(0.5, "with clips", when=lambda p: not p.stacked and p.form in ("bar", "pressed"))
 
     def build(self, t: Table) -> Model:
         w, d, thick, called = self.width, self.depth, self.thick, _called(self.form)
@@ -146,7 +146,7 @@ class Panels(Structure, name="grating/panels", weight=1.5, grain="fitting"):
         for k in range(self.count):
             t.at((k + 0.5) * pitch, 0, high - low).add(called, solid, of="clamp")
         t.add_each("beam", [bar((0, y, -low), (self.count * pitch, y, -low), one) for y in ys])
-        if self.clipped and self.form in ("bar", "pressed"):
+        if self.clipped:
             clip = box((0.05, 0.02, 0.003), (0, 0, high - low + thick + 0.0015))
             xs = [(k + f) * pitch for k in range(self.count) for f in (0.15, 0.85)]
             t.add_each("clamp", [moved(clip, at(x, y)) for x in xs for y in ys], of="trim")
@@ -161,12 +161,12 @@ def _rect(a: float, b: float) -> Floats:
 class Trench(Structure, name="grating/trench", grain="fitting"):
     """A floor with a trench or sump under gratings in an angle frame, or a round cover; slab, walls of the trench."""
 
-    form: str = among(("bar", "pressed", "perforated", "sheet"), "of the gratings")
+    round: bool = chance(0.3, "a round cover in place of a trench")
+    form: str = among(("bar", "pressed", "perforated", "sheet"), "of the gratings", when=lambda p: not p.round)
     length: float = between(0.8, 2.4, "of the trench", "m")
     width: float = between(0.2, 0.6, "of the trench", "m")
     slab: float = between(0.1, 0.2, "thickness of the floor's slab", "m")
-    deep: float = between(0.2, 0.5, "depth of the trench", "m")
-    round: bool = chance(0.3, "a round cover in place of a trench")
+    deep: float = between(0.2, 0.5, "depth of the trench", "m", when=lambda p: not p.round)
     count: int = whole(1, 3, "gratings", when=lambda p: not p.round)
 
     def build(self, t: Table) -> Model:
@@ -208,28 +208,23 @@ def _bow(t: Table, xs: tuple[float, float]) -> None:
     own.add_each("railing", [pipe([(xs[0], 0, h), (xs[1], 0, h)], r, style) for h, r in rails])
 
 
-def _sectors(p: Any) -> bool:
-    return not (p.joined and p.full)
-
-
 class Round(Structure, name="platform/ring", weight=1.2):
     """A platform round a silo, tank or chimney: sectors of plate or one ring on brackets, railing outside."""
 
     radius: float = between(0.4, 1.2, "of what it goes round", "m")
     width: float = between(0.6, 0.9, "of the floor", "m")
     height: float = between(1.0, 2.5, "of the floor", "m")
-    turn: float = between(1.5, 4.0, "how far it goes round, if not all the way", "rad")
     full: bool = among((True, False), "all the way round")
+    turn: float = between(1.5, 4.0, "how far it goes round", "rad", when=lambda p: not p.full, otherwise=2 * np.pi)
     above: float = between(0.2, 1.5, "height of what it goes round, over the floor", "m")
     core: str = among(("wall", "column"), "what that is called")
-    joined: bool = chance(0.4, "the floor is one ring, if all the way round")
-    called: str = among(("platform", "plate", "grating"), "what a sector is called", when=_sectors)
+    joined: bool = chance(0.4, "the floor is one ring", when=lambda p: p.full)
+    called: str = among(("platform", "plate", "grating"), "what a sector is called", when=lambda p: not p.joined)
 
     def build(self, t: Table) -> Model:
         r, w, h, own = self.radius, self.width, self.height, t.bundled("platform")
-        turn = 2 * np.pi if self.full else self.turn
-        n, count = few_sides(t.style, r, 40), max(2, int(turn / 0.8))
-        step, edge = turn / count, r + w - 0.03
+        n, count = few_sides(t.style, r, 40), max(2, int(self.turn / 0.8))
+        step, edge = self.turn / count, r + w - 0.03
         t.add(self.core, cylinder(r, 0, h + self.above, n), of="concrete")
         if self.called:
             a = np.linspace(0.003, step - 0.003, 5)
@@ -243,7 +238,7 @@ class Round(Structure, name="platform/ring", weight=1.2):
             t.spun("z", k * step).add("bracket", slab_xz(shape, 0.012))
             x, y = edge * np.cos(k * step), edge * np.sin(k * step)
             own.add("post", pipe([(x, y, h - 0.03), (x, y, h + 1.05)], 0.019, t.style), of="safety")
-        a = np.linspace(0, turn, 6 * count + 1)[: -2 if self.full else None]
+        a = np.linspace(0, self.turn, 6 * count + 1)[: -2 if self.full else None]
         for z, thick in ((1.05, 0.021), (0.55, 0.015)):
             path = np.column_stack([edge * np.cos(a), edge * np.sin(a), np.full(len(a), h + z)])
             own.add("railing", pipe(path, thick, t.style))
@@ -256,7 +251,7 @@ def _under(p: Any) -> float:
 
 
 def _legged(p: Any) -> bool:
-    return p.foot == "legs" and _under(p) >= 0.15
+    return bool(p.foot == "legs")
 
 
 class SolidPlatform(Structure, name="platform/solid", weight=1.3):
@@ -268,7 +263,9 @@ class SolidPlatform(Structure, name="platform/solid", weight=1.3):
     form: str = among(("folded", "ribbed", "slab"), "how it is made")
     deep: float = between(0.06, 0.15, "height of its edge", "m")
     material: str = among(("clamp", "steel", "concrete"), "kind of material")
-    foot: str = among(("blocks", "legs", "brackets"), "what it stands on; blocks where it is low")
+    foot: str = among(
+        ("blocks", "legs", "brackets"), "what it stands on", when=lambda p: _under(p) >= 0.15, otherwise="blocks"
+    )
     leg: str = among(("SHS", "CHS", "L", "U"), "section of the legs", when=_legged)
     bases: tuple[Base, ...] = bases(4, when=_legged)
     railed: bool = chance(0.7, "a railing", when=lambda p: p.height > 0.5)
@@ -284,7 +281,7 @@ class SolidPlatform(Structure, name="platform/solid", weight=1.3):
             solids += [box(size, (x, 0, h - 0.008 - 0.35 * deep)) for x in np.linspace(-0.3 * w, 0.3 * w, 4)]
         solids = [box((w, d, deep), (0, 0, h - deep / 2))] if self.form == "slab" else solids
         t.bundled("platform").add("platform", *solids, of=self.material)
-        if self.foot == "blocks" or low < 0.15:
+        if self.foot == "blocks":
             t.add_each("foundation", [box((0.2, d, low), (s * 0.35 * w, 0, low / 2)) for s in BOTH])
         elif self.foot == "legs":
             one = section(self.leg, 0.07, t.style)

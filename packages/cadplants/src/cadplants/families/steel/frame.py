@@ -12,6 +12,8 @@ from cadplants.families.steel.shape import (
     Section,
     Structure,
     grid,
+    lug,
+    raking,
     rect,
 )
 from cadplants.family import Model
@@ -27,7 +29,7 @@ __all__ = ["FRAMES"]
 class Profile(Params):
     """A rolled or hollow section (proportions of EN 10365, EN 10056, EN 10210)."""
 
-    share: float = between(0.25, 1.0, "height / the greatest that it could have")
+    share: float = between(0.4, 1.0, "height / the greatest that it could have")
     form: str = among(("H", "I", "channel", "angle", "square tube", "round tube"), "section")
     corner: float = among((0.0, 0.08), "radius of its corners / height", when=of_form("square tube"))
 
@@ -73,7 +75,7 @@ class Bay(Structure, name="frame/bay", weight=2, grain="fitting"):
     def build(self, t: Table) -> Model:
         w, d, h = self.width, self.depth, self.height
         (up, up_hole), across = self.column.section(t.style, 0.22), self.beam.section(t.style, 0.2)
-        thin, thin_hole = self.thin.section(t.style, 0.1)
+        thin, thin_hole = self.thin.section(t.style, 0.14)
         side, bolt = (
             float(np.ptp(up, axis=0).max()) + 0.12,
             [cylinder(0.008, 0.0, 0.05, 8), hexagon(0.024, 0.015, 0.028)],
@@ -90,25 +92,27 @@ class Bay(Structure, name="frame/bay", weight=2, grain="fitting"):
         deep, level = float(np.ptp(thin[:, 1])), 2 * level - h
         for x in np.linspace(0, w, self.purlins):
             t.add("beam", bar((x, 0, level + deep / 2), (x, d, level + deep / 2), thin, thin_hole))
-        self._braces(t, -float(np.ptp(up[:, 1])) * 0.1, (0.8 * thin, tuple(0.8 * hole for hole in thin_hole)))
+        half = float(np.ptp(up[:, 0])) / 2
+        self._braces(t, half, (0.8 * thin, tuple(0.8 * hole for hole in thin_hole)))
         if self.floored:
             t.add(self.floor, box((w + 0.1, d + 0.1, 0.008), (w / 2, d / 2, level + deep + 0.004)), of="steel")
         return t.model()
 
-    def _braces(self, t: Table, y: float, one: Section) -> None:
+    def _braces(self, t: Table, half: float, one: Section) -> None:
+        """Knee braces, or braces on either side of gusset plates in the corners between columns, feet and beam."""
         w, h, side = self.width, self.height, 0.16
-        rising = ((0.0, y, 0.2), (w, y, h - 0.2))
-        lines = {
-            "crossed": [rising, ((0.0, y - 0.06, h - 0.2), (w, y - 0.06, 0.2))],
-            "single": [rising],
-            "knee": [((0.0, y, h - 0.6), (0.5, y, h)), ((w, y, h - 0.6), (w - 0.5, y, h))],
-        }[self.braces]
+        if self.braces == "knee":
+            t.add_each("brace", [bar((x, 0, h - 0.6), (x + s * 0.5, 0, h), *one) for x, s in ((0.0, 1), (w, -1))])
+            return
+        y = 0.004 + min(-float(one[0][:, 0].min()), float(one[0][:, 0].max()))
+        lines = [((0.0, y, 0.1), (w, y, h - 0.1)), ((0.0, -y, h - 0.1), (w, -y, 0.1))]
         shape = [[0, 0], [side, 0], [side, 0.3 * side], [0.3 * side, side], [0, side]]
         gusset = moved(extrude(np.array(shape), -0.004, 0.004), spun("x", np.pi / 2))
-        for start, end in lines:
+        for start, end in lines[: 2 if self.braces == "crossed" else 1]:
             t.add("brace", bar(start, end, *one))
-            turn = 1.0 if end[0] > start[0] else -1.0
-            t.at(start[0], start[1], start[2] - 0.02).moved(np.diag([turn, 1, 1, 1])).add("gusset plate", gusset)
+            for x, z in ((start[0] + half, start[2]), (end[0] - half, end[2])):
+                sx, sz = np.sign(w / 2 - x), np.sign(h / 2 - z)
+                t.at(x, 0, z - sz * 0.085).moved(np.diag([sx, 1.0, sz, 1.0])).add("gusset plate", gusset)
 
 
 class Caged(Structure, name="ladder/cage", weight=1.5):
@@ -131,7 +135,7 @@ class Caged(Structure, name="ladder/cage", weight=1.5):
             hoop = np.column_stack([0.38 * np.cos(a), -0.36 - 0.36 * np.sin(a), np.zeros(13)])
             hoop = np.vstack([[wide / 2, 0, 0], hoop, [-wide / 2, 0, 0]])
             solid = sweep(hoop, np.array([[0.003, -0.02], [0.003, 0.02], [-0.003, 0.02], [-0.003, -0.02]]))
-            for z in np.arange(2.2, h + 0.01, 0.7):
+            for z in np.linspace(2.2, h, max(2, round((h - 2.2) / 0.7) + 1)):
                 own.at(0, 0, float(z)).add("ladder", solid)
             for x, y, _ in hoop[[1, 4, 7, 10, 13]]:
                 own.add("ladder", box((0.03, 0.005, h - 2.2), (x, y, (h + 2.2) / 2)))
@@ -261,11 +265,14 @@ class Flight(Structure, name="stairs/flight", weight=1.5, grain="fitting"):
         run, height = go * self.count, self.rise * self.count
         outline = rounded_rectangle(0.01, 0.2, 0.0) if self.flat else section_channel(0.18, 0.05, 0.006, 0.008)
         sides = [s * wide / 2 for s in BOTH]
-        t.add_each("beam", [bar((0, y, 0.0), (run, y, height), outline, ()) for y in sides])
+        # The strings' axes run through the middles of the treads.
+        lift = self.rise / 2 - 0.04
+        start, rising = -lift * go / self.rise, t.at(0, 0, lift)
+        rising.add_each("beam", [raking((start, y, -lift), (run, y, height), (outline, ())) for y in sides])
         tread = self.tread.solids(go, wide)
         for k in range(self.count):
             t.at((k + 0.5) * go, 0, (k + 1) * self.rise - 0.04).add("stair tread", *tread)
-        own = t.bundled("railing")
+        own = rising.bundled("railing")
         for y in sides if self.railed else ():
             own.add("railing", rod((0, y, 0.95), (run, y, height + 0.95), 0.02, n))
             feet = [(f * run, y, f * height) for f in (0.05, 0.5, 0.95)]
@@ -281,8 +288,8 @@ class Platform(Structure, name="platform/bay", weight=2.5):
     height: float = between(0.4, 2.4, "of its floor", "m")
     column: Profile = nested(Profile, "of the columns")
     edge: Profile = nested(Profile, "of the beams")
-    count: int = whole(1, 3, "panels, if it has such")
     plain: bool = chance(0.3, "its floor is one plate")
+    count: int = whole(1, 3, "panels", when=lambda p: not p.plain)
     panels: tuple[Panel, ...] = several(made(Panel), lambda p: p.count, "of the floor", when=lambda p: not p.plain)
     back: Rails = nested(Rails, "railing along x", when=lambda p: p.height > 0.5)
     sided: bool = chance(0.6, "a railing along y", when=lambda p: p.height > 0.5)
@@ -374,8 +381,8 @@ class Concrete(Structure, name="foundation/concrete", weight=1.5, grain="fitting
         "m",
     )
     width: float = between(0.4, 1.0, "of a foundation", "m", when=of_form("foundation"))
-    height: float = between(1.0, 3.0, "of a wall", "m", when=lambda p: p.form != "foundation")
-    thick: float = between(0.1, 0.3, "thickness of a wall", "m", when=lambda p: p.form != "foundation")
+    height: float = between(1.0, 3.0, "of a wall", "m", when=of_form("wall"))
+    thick: float = between(0.1, 0.3, "thickness of a wall", "m", when=of_form("wall"))
     opening: bool = chance(0.5, "an opening in the wall", when=of_form("wall"))
 
     def build(self, t: Table) -> Model:
@@ -400,17 +407,18 @@ class Concrete(Structure, name="foundation/concrete", weight=1.5, grain="fitting
 
 
 class Wheeled(Structure, name="skid frame/wheeled", weight=3, grain="fitting"):
-    """A skid frame of sections with lifting eyes or fork pockets, on casters or feet."""
+    """A skid frame of sections, maybe with a deck and lifting eyes, on casters or on the floor."""
 
     length: float = between(1.2, 2.6, "of the frame", "m")
     width: float = between(0.7, 1.4, "of the frame", "m")
     profile: Profile = nested(Profile, "of the frame")
     wheeled: bool = chance(0.55, "on casters")
-    radius: float = between(0.04, 0.09, "of a caster's wheel", "m")
+    radius: float = between(0.04, 0.09, "of a caster's wheel", "m", when=lambda p: p.wheeled)
     ties: int = whole(3, 5, "cross members")
     decked: bool = chance(0.5, "a plate on it")
     loose: bool = chance(0.5, "that plate is a part of its own kind, not of the frame", when=lambda p: p.decked)
     turns: tuple[float, ...] = several(number(0, 6), 4, "which way a caster points", "rad", when=lambda p: p.wheeled)
+    eyed: bool = chance(0.4, "with lifting eyes")
 
     def build(self, t: Table) -> Model:
         w, d, r, own = self.length, self.width, self.radius, t.bundled("skid frame")
@@ -423,6 +431,8 @@ class Wheeled(Structure, name="skid frame/wheeled", weight=3, grain="fitting"):
         own.add_each("skid frame", [bar((x, -d / 2, z), (x, d / 2, z), *tie) for x in xs])
         if self.decked:
             t.add("plate" if self.loose else "skid frame", box((w, d, 0.006), (0, 0, top + 0.003)))
+        for sx, sy in CORNERS if self.eyed else ():
+            t.at(sx * (w / 2 - 0.15), sy * d / 2, top).add("lifting lug", lug(t.style, 0.07, 0.012), of="steel")
         for (sx, sy), turn in zip(CORNERS, self.turns, strict=False):
             self._caster(t.at(sx * 0.4 * w, sy * d / 2).spun("z", turn).bundled("caster"), low)
         return t.model()

@@ -27,20 +27,20 @@ __all__ = ["GROUNDS"]
 class Slabs(Structure, name="ground/slabs", weight=1.3, grain="fitting"):
     """Ground in fields: slabs with joints, paving stones, falls to a gutter, a ramp, holes."""
 
+    form: str = among(("fields", "paving", "gutter", "ramp", "holes"), "what it is")
     length: float = between(1.5, 5.0, "along x", "m")
     width: float = between(1.2, 4.0, "along y", "m")
-    thick: float = among((0.02, 0.1, 0.2, 0.4), "thickness of a slab", "m")
-    form: str = among(("fields", "paving", "gutter", "ramp", "holes"), "what it is")
+    thick: float = among(
+        (0.02, 0.1, 0.2, 0.4), "thickness of a slab", "m", when=lambda p: p.form != "paving", otherwise=0.08
+    )
     fields_along: int = whole(1, 3, "fields along x", when=of_form("fields"))
     fields_across: int = whole(1, 3, "fields along y", when=of_form("fields"))
     materials: tuple[str, ...] = several(
         one_of("ground", "concrete"), lambda p: p.fields_along * p.fields_across, "kind of material of a field"
     )
     holed: bool = chance(0.6, "with holes", when=of_form("holes"))
-    footed: bool = chance(0.4, "a foundation on it, if of fields or with a ramp")
-    foot: float = between(
-        0.3, 0.8, "side of the foundation", "m", when=lambda p: p.footed and p.form in ("fields", "ramp")
-    )
+    footed: bool = chance(0.4, "a foundation on it", when=of_form("fields", "ramp"))
+    foot: float = between(0.3, 0.8, "side of the foundation", "m", when=lambda p: p.footed)
 
     def build(self, t: Table) -> Model:
         a, b, thick = self.length, self.width, self.thick
@@ -79,9 +79,9 @@ class Slabs(Structure, name="ground/slabs", weight=1.3, grain="fitting"):
 class Relief(Structure, name="ground/relief", grain="fitting"):
     """Ground with an edge or relief: gravel in kerbs, a grass mound, a round pad, a road, a terrain patch."""
 
-    length: float = between(1.5, 4.0, "along x, or diameter", "m")
-    width: float = between(1.2, 3.0, "along y", "m")
     form: str = among(("kerbs", "pad", "road", "patch"), "what it is")
+    length: float = between(1.5, 4.0, "along x, or diameter", "m")
+    width: float = between(1.2, 3.0, "along y", "m", when=lambda p: p.form != "pad")
     kerb: float = among((0.06, 0.1, 0.15), "width of a kerb", "m", when=of_form("kerbs"))
     rise: float = among((0.0, 0.1), "of the round pad", "m", when=of_form("pad"))
     post: bool = chance(0.5, "a post on the round pad", when=of_form("pad"))

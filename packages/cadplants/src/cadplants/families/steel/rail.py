@@ -322,7 +322,7 @@ class OnWall(Structure, name="railing/wall", weight=0.8, grain="fitting"):
 
     length: float = between(1.0, 3.5, "of the handrail, level", "m")
     slope: float = among((0.0, 0.0, 0.4), "rise / length, but for the next factor")
-    steep: float = between(0.8, 1.2, "factor of the slope")
+    steep: float = between(0.8, 1.2, "factor of the slope", when=lambda p: p.slope > 0)
     radius: float = among((0.017, 0.021, 0.025), "of the tube", "m")
     height: float = between(0.85, 1.0, "of its lower end", "m")
     above: float = between(0.2, 1.5, "height of the wall over its upper end", "m")
@@ -411,7 +411,7 @@ class Bollards(Structure, name="post/bollard", weight=0.8, grain="fitting"):
     """Bollards: steel tubes with dome, cap or concrete fill, on plates or cast in, with bands or hoops."""
 
     count: int = whole(1, 4, "bollards")
-    width: float = between(0.6, 1.5, "from one to the next", "m")
+    width: float = between(0.6, 1.5, "from one to the next", "m", when=lambda p: p.count > 1)
     height: float = between(0.5, 1.3, "of a bollard", "m")
     radius: float = between(0.045, 0.11, "of a bollard", "m")
     top: str = among(("dome", "flat", "cap", "groove"), "of a bollard")

@@ -16,11 +16,12 @@ from cadplants.builder.table import Table
 from cadplants.mesh_ops import Solid, extrude, lattice, merge, moved, tube
 from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle
-from cadplants.primitives import CORNERS, box, cylinder, hexagon, rope
+from cadplants.primitives import BOTH, CORNERS, along, box, cylinder, hexagon, rope
 from cadplants.transforms import at, looking, spun
 
 __all__ = [
     "ROLLED",
+    "RUNWAYS",
     "Base",
     "Props",
     "Section",
@@ -35,6 +36,7 @@ __all__ = [
     "lug",
     "mirrored",
     "pipe",
+    "raking",
     "rect",
     "ribbon",
     "section",
@@ -42,6 +44,7 @@ __all__ = [
     "slab_xz",
     "slab_yz",
     "span_of",
+    "trolley",
 ]
 
 GROUP = "Structural element"
@@ -49,6 +52,8 @@ Rng = np.random.Generator
 Count = Callable[[Any], int]
 T = TypeVar("T")
 Section = tuple[Floats, tuple[Floats, ...]]
+RUNWAYS = ("H", "I", "IPN")
+"""Sections on whose lower flanges a trolley runs."""
 ROLLED = ("H", "I", "IPN", "U", "RHS", "SHS", "CHS")
 
 
@@ -194,6 +199,17 @@ def bar(start: npt.ArrayLike, end: npt.ArrayLike, one: Section, up: npt.ArrayLik
     pose = np.eye(4)
     pose[:3, 0], pose[:3, 1], pose[:3, 2], pose[:3, 3] = frame[:3, 1], frame[:3, 2], frame[:3, 0], a
     return moved(extrude(one[0], 0.0, float(np.linalg.norm(b - a)), one[1]), pose)
+
+
+def raking(start: npt.ArrayLike, end: npt.ArrayLike, one: Section) -> Solid:
+    """A section along a slope, cut level at its start and upright at its end."""
+    a, b = np.asarray(start, float), np.asarray(end, float)
+    solid, way = bar(a, b, one), b - a
+    v = solid.vertices.copy()
+    low = (v - a) @ way < 0.5 * (way @ way)
+    v[low] -= np.outer((v[low, 2] - a[2]) / way[2], way)
+    v[~low] -= np.outer((v[~low, 0] - b[0]) / way[0], way)
+    return Solid(v, solid.faces)
 
 
 def flat(start: npt.ArrayLike, end: npt.ArrayLike, wide: float, thick: float, up: npt.ArrayLike = (0, 0, 1)) -> Solid:
@@ -344,6 +360,28 @@ def lug(style: ModelingStyle, size: float, thick: float) -> Solid:
     head = np.column_stack([0.5 * size * np.cos(a), 0.65 * size + 0.5 * size * np.sin(a)])
     outline = np.vstack([[[-0.7 * size, 0.0], [0.7 * size, 0.0]], head])
     return slab_xz(outline, thick, 0.0, (circle(0.24 * size, n, (0.0, 0.68 * size)),))
+
+
+def trolley(t: Table, size: float, kind: str) -> None:
+    """A hand-pushed trolley on the lower flange of a beam along x about the origin: cheeks, wheels and a hook's bar.
+
+    Args:
+        t: with its frame in the middle of the beam's section.
+        size: height of the section [m].
+        kind: of the section, one of ``RUNWAYS``.
+    """
+    wide, deep, r = {"H": (0.5, 0.08), "I": (0.25, 0.05), "IPN": (0.21, 0.055)}[kind] + (0.16 * size,)
+    b, z, n = wide * size, (deep - 0.5) * size + r, few_sides(t.style, r, 16)
+    for s in BOTH:
+        cheek = slab_xz(rounded_rectangle(5 * r, 5 * r, r, 2) + np.array([0, z - 1.5 * r]), 0.06 * size, s * (b + r))
+        t.add("plate", cheek, of="handle")
+        for x in (-1.4 * r, 1.4 * r):
+            axle = along("y", cylinder(0.35 * r, 0.3 * b, b + 1.3 * r, 8), x, 0, z)
+            rim = along("y", cylinder(r, 0.35 * b, b, n), x, 0, z)
+            t.spun("z", 0.0 if s > 0 else np.pi).add("caster", rim, axle, of="trim")
+    low = z - 3.2 * r
+    t.add("bolt", along("y", cylinder(0.35 * r, -b - 1.5 * r, b + 1.5 * r, 8), 0, 0, low), fine=False, own=False)
+    t.at(0, 0, low + 1.1 * r).spun("x", np.pi).add("lifting lug", lug(t.style, 1.6 * r, 0.5 * r), of="steel")
 
 
 def rect(a: float, b: float, x: float = 0.0, y: float = 0.0) -> Floats:

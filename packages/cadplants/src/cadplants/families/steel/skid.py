@@ -79,7 +79,7 @@ class Lugs(Params):
     """Lifting eyes on top of the corners, or trunnions of pipe at the sides, or none."""
 
     form: str = among(("none", "eyes", "trunnions"), "what they are")
-    size: float = between(0.06, 0.11, "width of an eye, if it has such", "m")
+    size: float = between(0.06, 0.11, "width of an eye", "m", when=of_form("eyes"))
 
     def build(self, t: Table, a: float, b: float) -> None:
         """Puts them down on a frame of two sides whose top is on z = 0 [m]."""
@@ -93,8 +93,7 @@ class Lugs(Params):
                 side.add("lifting lug", *stub, of="steel")
 
 
-def _some(p: Any) -> bool:
-    return bool(p.form != "nothing")
+_BARS = "panel stand", "frame", "plinths"
 
 
 class Payload(Params):
@@ -105,9 +104,9 @@ class Payload(Params):
         lambda p: ("nothing", "panel stand", "frame", "plinths", "bow") if p.decked else ("nothing", "plinths"),
         "what it is",
     )
-    size: float = between(0.05, 0.08, "height of its section", "m", when=_some)
-    shape: str = among(("SHS", "U", "L", "CHS", "strut"), "its section", when=_some)
-    height: float = between(0.6, 1.8, "of what stands there", "m", when=_some)
+    size: float = between(0.05, 0.08, "height of its section", "m", when=of_form(*_BARS))
+    shape: str = among(("SHS", "U", "L", "CHS", "strut"), "its section", when=of_form(*_BARS))
+    height: float = between(0.6, 1.8, "of what stands there", "m", when=of_form("panel stand", "frame", "bow"))
     braced: bool = chance(0.5, "the frame is braced", when=of_form("frame"))
 
     @classmethod
@@ -117,9 +116,13 @@ class Payload(Params):
 
     def build(self, t: Table, a: float, b: float) -> None:
         """Puts it down on z = 0, within two sides [m]."""
-        if self.form == "nothing":
+        h = self.height
+        if self.form == "bow":
+            path = [(s * 0.4 * a, -0.45 * b, z) for s, z in ((-1, 0), (-1, h), (1, h), (1, 0))]
+            t.add("railing", pipe(path, 0.021, t.style, 0.12))
+        if self.form not in _BARS:
             return
-        one, h = section(self.shape, self.size, t.style), self.height
+        one = section(self.shape, self.size, t.style)
         _x0, _x1, y0, y1 = span_of(one)
         if self.form == "panel stand":
             x = 0.35 * a
@@ -132,11 +135,8 @@ class Payload(Params):
             t.add_each("beam", [bar((s * x, -y, level), (s * x, y, level), one) for s in BOTH])
             thin = section("L", 0.04, t.style)
             t.add_each("brace", [bar((-x, s * y, 0), (x, s * y, h), thin) for s in BOTH if self.braced])
-        elif self.form == "plinths":
-            t.add_each("beam", [bar((s * 0.2 * a, -0.5 * b, -y0), (s * 0.2 * a, 0.5 * b, -y0), one) for s in BOTH])
         else:
-            path = [(s * 0.4 * a, -0.45 * b, z) for s, z in ((-1, 0), (-1, h), (1, h), (1, 0))]
-            t.add("railing", pipe(path, 0.021, t.style, 0.12))
+            t.add_each("beam", [bar((s * 0.2 * a, -0.5 * b, -y0), (s * 0.2 * a, 0.5 * b, -y0), one) for s in BOTH])
 
 
 class Welded(Structure, name="skid frame/welded", weight=2.0):
@@ -267,8 +267,7 @@ class Tray(Structure, name="skid frame/drip tray", weight=1.2):
             own.add_each(_SKID, [box((a, 0.06, tall), (0, s * 0.38 * b, tall / 2)) for s in BOTH])
         size = (0.05, b - thick, deep - 0.03)
         t.add_each("beam", [box(size, (x, 0, low + size[2] / 2)) for x in np.linspace(-0.35 * a, 0.35 * a, 3)])
-        if self.deck.called != _SKID:
-            self.deck.build(t.at(0, 0, low + deep - 0.03), a - 0.03, b - 0.03)
+        self.deck.build(t.at(0, 0, low + deep - 0.03), a - 0.03, b - 0.03)
         return t.model()
 
 

@@ -16,8 +16,9 @@ from cadplants.families.steel.shape import (
     Structure,
     bar,
     few_sides,
-    flat,
     pipe,
+    raking,
+    rect,
     ribbon,
     section,
     slab_xy,
@@ -73,7 +74,7 @@ class ConcreteFlight(Structure, name="stairs/concrete", weight=0.8, grain="fitti
     rise: float = between(0.15, 0.19, "of a step", "m")
     going: float = between(0.25, 0.32, "of a step", "m")
     width: float = between(0.7, 1.6, "of the flight", "m")
-    solid: bool = chance(0.5, "solid, not a sloped slab, as short ones always are")
+    solid: bool = chance(0.5, "solid, not a sloped slab", when=lambda p: p.count > 3, otherwise=True)
     cheeked: bool = chance(0.35, "with cheek walls")
     nosed: bool = chance(0.4, "with nosings")
     railed: bool = chance(0.6, "with a railing")
@@ -81,14 +82,13 @@ class ConcreteFlight(Structure, name="stairs/concrete", weight=0.8, grain="fitti
     def build(self, t: Table) -> Model:
         n, rise, go, wide = self.count, self.rise, self.going, self.width
         run, h = n * go, n * rise
-        solid = self.solid or n < 4
         steps = [(0.0, 0.0), *((x, (k + 1) * rise) for k in range(n) for x in (k * go, (k + 1) * go))]
-        under = [(run, 0.0)] if solid else [(run, h - 0.2), (0.35, 0.0)]
+        under = [(run, 0.0)] if self.solid else [(run, h - 0.2), (0.35, 0.0)]
         t.add("stair tread", slab_xz(np.array([*steps, *under][::-1]), wide), of="concrete")
         if self.cheeked:
             cheek = [(-0.1, 0), (run, 0), (run, h + 0.15), (-0.1, 0.15)]
             t.add_each("wall", [slab_xz(cheek, 0.15, s * (wide / 2 + 0.075)) for s in BOTH])
-        elif not solid:
+        elif not self.solid:
             t.add("wall", box((0.3, wide, h - 0.2), (run + 0.15, 0, (h - 0.2) / 2)))
         if self.nosed:
             nosings = [box((0.05, wide, 0.004), (k * go + 0.025, 0, (k + 1) * rise + 0.002)) for k in range(n)]
@@ -104,6 +104,11 @@ class ConcreteFlight(Structure, name="stairs/concrete", weight=0.8, grain="fitti
 
 def _stringed(p: Any) -> bool:
     return p.string in ("U", "flat", "RHS")
+
+
+def _lift(p: Any) -> float:
+    """How far the axes of strings, which run through the middles of the treads, are over the line of their edges."""
+    return float(p.rise / 2 - 0.03) if _stringed(p) else 0.0
 
 
 class SteelFlight(Structure, name="stairs/strings and spine", weight=1.5, grain="fitting"):
@@ -141,7 +146,7 @@ class SteelFlight(Structure, name="stairs/strings and spine", weight=1.5, grain=
                 here.add("bracket", box((0.15, 0.3, 0.125 + more), (-go / 2, 0, -0.0625 + more / 2)))
             here.add("stair tread", solid, *([nosing] if nosed else []), *ends, of="clamp")
         if self.railed:
-            self._rails(t, n * go, n * rise)
+            self._rails(t.at(0, 0, _lift(self)), n * go, n * rise)
         return t.model()
 
     def _strings(self, t: Table, run: float, h: float) -> None:
@@ -157,7 +162,9 @@ class SteelFlight(Structure, name="stairs/strings and spine", weight=1.5, grain=
             t.add("beam", bar((0.0, 0, rise - drop), (run - go, 0, h - drop), one))
         else:
             one = section(self.string, self.size, t.style)
-            t.add_each("beam", [bar((0, s * y, 0), (run, s * y, h), one) for s in BOTH])
+            lift = _lift(self)
+            start = -lift * go / rise
+            t.at(0, 0, lift).add_each("beam", [raking((start, s * y, -lift), (run, s * y, h), one) for s in BOTH])
 
     def _rails(self, t: Table, run: float, h: float) -> None:
         """Railings, over a run and a height [m]."""
@@ -190,8 +197,9 @@ class StepOver(Structure, name="stairs/step over", grain="fitting"):
         one, leg = section(self.string, 0.12, t.style), section("SHS", 0.04, t.style)
         tread = panel(self.tread, go, wide, 0.03, t.style)
         for way in BOTH if self.both else (1,):
-            foot = way * (x + go * n)
-            t.add_each("beam", [bar((foot, s * y, 0.05), (way * x, s * y, h - 0.05), one) for s in BOTH])
+            # A string's axis runs from 50 mm over the floor to as far below the platform's top.
+            foot = way * (x + go * n * (h - 0.05) / (h - 0.1))
+            t.add_each("beam", [raking((foot, s * y, 0.0), (way * x, s * y, h - 0.05), one) for s in BOTH])
             for k in range(n):
                 here = t.at(way * (x + go * (n - k - 0.5)), 0, rise * (k + 1) - 0.03)
                 here.add("stair tread", tread, of="clamp")
@@ -220,7 +228,8 @@ class Zigzag(Structure, name="stairs/zigzag", weight=0.7, grain="fitting"):
         of = "steel" if thick < 0.02 else "concrete"
         t.add("stair tread", slab_xz(ribbon(np.array(line), thick), wide), of=of)
         for s in BOTH if self.stringed else ():
-            t.add("beam", flat((0, s * y, 0.08), (run, s * y, h + 0.08), 0.28, 0.01))
+            string = raking((-0.06 * go / rise, s * y, 0.0), (run, s * y, h + 0.06), (rect(0.01, 0.28), ()))
+            t.add("beam", string)
         tall = h - thick / 2
         t.add(self.back, box((0.2, wide, tall), (run - 0.1, 0, tall / 2)))
         return t.model()

@@ -197,7 +197,8 @@ class SpringBase(Bracket, name="bracket/spring base", sizes=SIZES[3:]):
     """A variable spring base (MSS SP-58 type F): a can on a flange, a load column, a shoe on it."""
 
     tall: float = between(0, 0.1, "height of the can over the usual one", "m")
-    shoe: float = between(0.0, 0.08, "height of the shoe; none under 20 mm", "m")
+    shod: bool = chance(0.75, "a shoe under the line")
+    shoe: float = between(0.02, 0.08, "height of the shoe", "m", when=lambda p: p.shod)
     round: bool = chance(0.5, "the load plate is round")
     out: float = between(0.02, 0.08, "how far the load column stands out of the can", "m")
     slot: bool = chance(0.6, "a scale in the can")
@@ -208,13 +209,13 @@ class SpringBase(Bracket, name="bracket/spring base", sizes=SIZES[3:]):
     def depth(p: Any) -> float:
         """From the line's axis to the foot of the can [m]."""
         r, plate = radius(p), 0.012
-        return r + (p.shoe if p.shoe > 0.02 else 0.0) + plate + p.out + 0.1 + 0.6 * r + p.tall  # type: ignore[no-any-return]
+        return r + p.shoe + plate + p.out + 0.1 + 0.6 * r + p.tall  # type: ignore[no-any-return]
 
     def build(self, t: Table) -> Model:
         r, shoe, plate, foot = t.pipe.radius, self.shoe, 0.012, -self.depth(self)
         can, tall = 0.045 + 0.4 * r, 0.1 + 0.6 * r + self.tall
         n, top, lid = t.n(can, 12), -r, foot + tall
-        if shoe > 0.02:
+        if self.shod:
             top -= shoe
             web = box((1.2 * can, 0.008, shoe - 0.006), (0, 0, -r - shoe / 2 + 0.004))
             t.add(_B, web, box((1.4 * can, 1.4 * can, 0.008), (0, 0, top + 0.004)))

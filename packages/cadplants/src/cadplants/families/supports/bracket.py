@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from cadplants.builder.device import families_of
@@ -32,17 +34,21 @@ _B = "bracket"
 _FORWARD = np.array([[1.0, 0, 0, 0], [0, 0, 1, 0], [0, 1, 0, 0], [0, 0, 0, 1]])
 
 
+def _stripped(p: Any) -> bool:
+    return bool(p.form != "tubes")
+
+
 class Shelf(Fitting, name="bracket/shelf", label=_B):
     """Shelf brackets on a wall: strip with a strut, rib, forged scroll, U with cheeks, tube arm."""
 
     count: int = whole(2, 4, "brackets")
     gap: float = between(0.35, 0.7, "from bracket to bracket", "m")
     reach: float = between(0.15, 0.4, "from the wall to the bracket's end", "m")
-    drop: float = between(0.12, 0.35, "height of a bracket", "m")
-    thick: float = among((0.004, 0.006, 0.008), "of a bracket's strip", "m")
-    wide: float = between(0.025, 0.06, "width of a bracket's strip", "m")
-    level: float = between(0.7, 1.6, "height of the shelf", "m")
     form: str = among(("strut", "rib", "scroll", "cheeks", "tubes"), "how the brackets are made")
+    drop: float = between(0.12, 0.35, "height of a bracket", "m", when=_stripped)
+    thick: float = among((0.004, 0.006, 0.008), "of a bracket's strip", "m", when=_stripped, otherwise=0.0)
+    wide: float = between(0.025, 0.06, "width of a bracket's strip", "m", when=_stripped)
+    level: float = between(0.7, 1.6, "height of the shelf", "m")
     wall: float = between(0.1, 0.25, "thickness of the wall", "m")
     stepped: bool = chance(0.5, "the cheeks follow the strip, not a slant", when=lambda p: p.form == "cheeks")
     boarded: bool = chance(0.75, "a board on the brackets")
@@ -52,12 +58,13 @@ class Shelf(Fitting, name="bracket/shelf", label=_B):
         reach, drop, wide, thick, level = self.reach, self.drop, self.wide, self.thick, self.level
         length, tubes = (self.count - 1) * self.gap + 0.3, self.form == "tubes"
         add_wall(t, length + 0.4, self.wall, 0.0, 0.0, level + 0.5)
-        strip = [box((wide, thick, drop), (0, -thick / 2, -drop / 2))]
-        strip.append(box((wide, reach - thick, thick), (0, -thick - (reach - thick) / 2, -thick / 2)))
+        strip = [box((wide, thick, drop), (0, -thick / 2, -drop / 2))] if drop else []
+        if drop:
+            strip.append(box((wide, reach - thick, thick), (0, -thick - (reach - thick) / 2, -thick / 2)))
         solids, half = self._solids(t), (self.count - 1) * self.gap / 2
         for x in np.linspace(-half, half, self.count):
             spot = t.at(float(x), 0, level)
-            spot.add(_B, *(() if tubes else strip), *solids)
+            spot.add(_B, *strip, *solids)
             for z in () if tubes else (-0.03, -0.75 * drop):
                 aside = 0.3 * wide if self.form in ("rib", "cheeks") else 0.0
                 screwed(spot, 0.008, thick, -aside if z > -0.05 else aside, 0.0, z)
@@ -175,16 +182,17 @@ class MotorSlide(Fitting, name="bracket/motor slide", label=_B):
         if low:
             t.add("foundation", box((length + 0.2, gap + 0.3, low), (0, 0, low / 2)))
         n, rail = few(d, t.style), self._rail(low, top)
-        push, nut = cylinder(d / 2, -0.06, 0.08, n), hexagon(1.6 * d, 0.05, 0.05 + 0.7 * d)
+        # The screws press on the motor's soles.
+        push, nut = cylinder(d / 2, -0.06, 0.29 * length + 0.02, n), hexagon(1.6 * d, 0.05, 0.05 + 0.7 * d)
         for s in BOTH:
             side = t.at(0, s * gap / 2)
             side.add(_B if self.brackets else "plate", rail)
             side.add(_B, box((0.02, wide * 0.5, 0.035), (-0.44 * length, 0, top + 0.0175)))
             screw = [along("x", push), along("-x", nut)]
-            side.at(-0.44 * length, 0, top + 0.02).add("screw", *screw, fine=False)
+            side.at(-0.44 * length, 0, top + 0.009).add("screw", *screw, fine=False)
             for q in (-0.4, 0.4) if self.solid else ():
                 add_bolt(side.at(q * length * 1.1, 0, top - 0.004), d, 0.004, "none")
-        r, foot, inner = 0.32 * gap + 0.02, 0.012, gap / 2 - 0.3 * wide
+        r, foot, inner = 0.32 * gap + 0.02, 0.016, gap / 2 - 0.3 * wide
         for s in BOTH:
             sole = box((0.3 * length, wide, foot), (0.02, s * gap / 2, top + foot / 2))
             t.add(_B, sole, box((0.26 * length, 0.012, 0.7 * r), (0.02, s * inner, top + 0.35 * r)))

@@ -116,7 +116,7 @@ class TwoBolt(_Banded, name="clamp/two-bolt"):
 class Riser(Fitting, name="clamp/riser", bundle="clamp", label="clamp", sizes=SIZES, grain="structure"):
     """A riser clamp (MSS SP-58 type 8): two halves with long ears on a slab or on beams, round a riser."""
 
-    band: _Band = nested(_Band, "band")
+    band: _Band = nested(_Band, "band", fixed=lambda _: {"ear": 0.0})
     ear: float = between(0.08, 0.2, "length of an ear - radius of the line", "m")
     level: float = between(0.5, 1.2, "height of what the clamp lies on", "m")
     high: float = between(1.5, 2.2, "height of the line's end", "m")
@@ -282,6 +282,7 @@ class Cushion(_Clamp, name="clamp/cushion"):
 class Anchor(_Banded, name="clamp/anchor", sizes=SIZES[4:]):
     """A heavy fixed point: a wide clamp with four bolts or six on a welded chair with ribs (DIN 3567, EN 13480-3)."""
 
+    band: _Band = nested(_Band, "band", fixed=lambda _: {"wide": 1.0})
     four: bool = chance(0.7, "four bolts, not six")
     heads: tuple[str, ...] = several(one_of("hex", "stud"), lambda p: 4 if p.four else 6, "heads of the bolts")
     drop: float = between(0.05, 0.15, "from the clamp to the chair's foot", "m")
@@ -316,16 +317,11 @@ class Anchor(_Banded, name="clamp/anchor", sizes=SIZES[4:]):
 class Block(_Clamp, name="clamp/block", sizes=_SMALL):
     """A block clamp (DIN 3015): two plastic halves, cover plate, two bolts, weld plate; single or twin."""
 
-    double: bool = chance(0.3, "for two lines, where they are thin")
+    twin: bool = chance(0.3, "for two lines", when=lambda p: radius(p) < 0.03)
     covered: bool = chance(0.75, "a cover plate")
-    plain: tuple[bool, ...] = several(yes(0.6), lambda p: 1 if Block.twin(p) else 2, "hexagon heads on the bolts")
+    plain: tuple[bool, ...] = several(yes(0.6), lambda p: 1 if p.twin else 2, "hexagon heads on the bolts")
     sole: float = between(0, 0.04, "length of the weld plate over the block", "m")
     below: Below = standing(lambda p: Block.high(p) + 0.006)
-
-    @staticmethod
-    def twin(p: Any) -> bool:
-        """Whether it holds two lines."""
-        return bool(p.double and radius(p) < 0.03)
 
     @staticmethod
     def high(p: Any) -> float:
@@ -333,7 +329,7 @@ class Block(_Clamp, name="clamp/block", sizes=_SMALL):
         return 1.15 * radius(p) + 0.006
 
     def build(self, t: Table) -> Model:
-        r, high, twin = t.pipe.radius, self.high(self), self.twin(self)
+        r, high, twin = t.pipe.radius, self.high(self), self.twin
         wide, (d, plate) = 0.03 if r < 0.03 else 0.045 + 0.2 * r, (0.006, 0.004) if r < 0.04 else (0.01, 0.008)
         reach = 1.25 * r + 0.012 + 1.6 * d
         step, a = 2 * reach + 0.004, np.linspace(0, np.pi, max(6, few(r, t.style, 28) // 2) + 1)[::-1]

@@ -32,21 +32,21 @@ __all__ = ["COUPLES"]
 class _HoseClamp(Params):
     """A clamp round a hose along x."""
 
+    form: str = given("ears", "how it is closed")
     turn: float = between(0, 6, "where its screw is", "rad")
-    twin: bool = chance(0.6, "two ears, of a clamp with ears")
+    twin: bool = chance(0.6, "two ears", when=lambda p: p.form == "ears")
 
-    def build(self, t: Table, form: str, out: float, thick: float, wide: float, n: int) -> None:
+    def build(self, t: Table, out: float, thick: float, wide: float, n: int) -> None:
         """Puts it down: its band, what closes it on top, its screw.
 
         Args:
             t: with the frame.
-            form: how it is closed.
             out: radius of the hose [m].
             thick: of the band [m].
             wide: width of the band [m].
             n: sides of the band.
         """
-        t = t.spun("x", self.turn)
+        t, form = t.spun("x", self.turn), self.form
         band, b, top = along("x", ring(out, out + thick, -wide / 2, wide / 2, n)), 0.35 * wide + 0.002, out + thick
         if form == "worm drive":  # a housing with a screw across
             axis = top + 1.2 * b
@@ -78,7 +78,9 @@ class Hose(Fitting, name="clamp/hose", place="end", label="clamp", bundle="clamp
     swing: float = between(0, 0.35, "how far it hangs down / its length")
     form: str = among(("worm drive", "trunnions", "ears", "wire"), "how the clamps are closed")
     one: bool = chance(0.6, "one clamp")
-    clamps: tuple[_HoseClamp, ...] = several(made(_HoseClamp), lambda p: 1 if p.one else 2, "clamps")
+    clamps: tuple[_HoseClamp, ...] = several(
+        made(_HoseClamp, lambda p: {"form": p.form}), lambda p: 1 if p.one else 2, "clamps"
+    )
 
     def build(self, t: Table) -> Model:
         r = t.pipe.radius
@@ -88,7 +90,7 @@ class Hose(Fitting, name="clamp/hose", place="end", label="clamp", bundle="clamp
         path = np.vstack([[(-over, 0.0, 0.0), (0.0, 0.0, 0.0)], np.column_stack([reach * s, np.zeros(8), sag])])
         t.add("hose", tube(path, out, r if t.style.hollow else 0.0, n))
         for x, clamp in zip((-0.5,) if self.one else (-0.7, -0.25), self.clamps, strict=True):
-            clamp.build(t.at(x * over), self.form, out, 0.0008 + 0.008 * r, 0.009 + 0.06 * r, n)
+            clamp.build(t.at(x * over), out, 0.0008 + 0.008 * r, 0.009 + 0.06 * r, n)
         return t.model()
 
 

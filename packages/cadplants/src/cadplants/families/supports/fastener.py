@@ -157,7 +157,7 @@ class _NutOn(_Threaded):
     turn: float = between(0, 6, "which way the nut is turned", "rad")
     washer: bool = chance(0.6, "a washer under it")
     wide: float = between(1.0, 1.6, "radius of the washer / diameter of the stud", when=lambda p: p.washer)
-    over: float = between(1.2, 3.5, "height of the stud over the plate / diameter, of most nuts")
+    over: float = between(1.2, 3.5, "height of the stud over the plate / diameter, less in closed nuts")
     ridged: bool = _ridged()
 
 
@@ -182,7 +182,7 @@ class Nuts(_Fasteners, name="nut/kinds", label="nut"):
             add_piece(spot.at(0, 0, flat), "nut", nut_solid(kind, d, t.style))
             if flat:
                 add_piece(spot, "washer", ring(0.54 * d, d * nut.wide, 0, flat, max(8, few(d, t.style))))
-            over = d * {"coupling": 2.5, "cap": 0.7, "eye": 0.6}.get(kind, nut.over)
+            over = d * nut.over * {"coupling": 0.8, "cap": 0.25, "eye": 0.2}.get(kind, 1.0)
             add_piece(spot, "stud", _shank(d, -thick - (0.9 * up), flat + over, t.style, nut.ridged))
         wide, deep, x, y = columns * pitch, rows * pitch, (columns - 1) * pitch / 2, (rows - 1) * pitch / 2
         t.add("plate", box((wide, deep, thick), (x, y, up + thick / 2)))
@@ -195,13 +195,13 @@ class _Screw(_Threaded):
     """A screw or bolt in two plates."""
 
     bolt: bool = given(False, "a bolt, not a screw")
-    out: float = among((0.0, 0.0, 1.2), "how far it stands out / diameter")
+    lying: bool = chance(0.25, "lies by")
+    out: float = among((0.0, 0.0, 1.2), "how far it stands out / diameter", when=lambda p: not p.lying, otherwise=0.0)
     grip: float = between(2.2, 4.0, "length of its shank / diameter")
     ridged: bool = _ridged()
-    lying: bool = chance(0.25, "lies by")
     turn: float = between(0, 6, "which way its head is turned", "rad", when=lambda p: not p.lying)
-    nutted: bool = chance(0.4, "a nut below, of bolts that do not stand out", when=lambda p: not p.lying)
-    nut: str = among(("hex", "square", "lock", "flange"), "the nut", when=lambda p: p.nutted and p.bolt and not p.out)
+    nutted: bool = chance(0.4, "a nut below", when=lambda p: p.bolt and not p.lying and not p.out)
+    nut: str = among(("hex", "square", "lock", "flange"), "the nut", when=lambda p: p.nutted)
 
 
 def _screw_of(rng: np.random.Generator, p: Any, so_far: tuple[_Screw, ...]) -> _Screw:

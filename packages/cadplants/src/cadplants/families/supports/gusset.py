@@ -179,9 +179,9 @@ class Haunch(_Joint, name="gusset plate/haunch"):
     reach: float = between(0.8, 1.6, "length of the beam", "m")
     thick: float = among((0.012, 0.016, 0.02), "of the end plate", "m")
     bolt: float = among((0.016, 0.02), "diameter of the bolts", "m")
-    deep: float = between(0.5, 1.0, "height of the haunch / of the beam")
-    long: float = between(1.0, 2.0, "length of the haunch / height of the beam")
     haunched: bool = chance(0.7, "a haunch")
+    deep: float = between(0.5, 1.0, "height of the haunch / of the beam", when=lambda p: p.haunched)
+    long: float = between(1.0, 2.0, "length of the haunch / height of the beam", when=lambda p: p.haunched)
     curved: bool = chance(0.3, "the haunch is a plate with a hollow edge", when=lambda p: p.haunched)
     lines: int = whole(3, 5, "rows of bolts")
     heads: tuple[str, ...] = several(one_of("hex", "flange"), lambda p: 2 * p.lines, "heads of the bolts")
@@ -201,7 +201,7 @@ class Haunch(_Joint, name="gusset plate/haunch"):
             if not self.curved:
                 ends = (x0, 0, under - deep - f / 2), (x0 + long, 0, under - f / 2)
                 t.add("plate", bar(*ends, rounded_rectangle(b, f, 0)))
-        low, top = under - (deep if self.haunched else 0.0) - 0.02, z + h / 2 + 0.02
+        low, top = under - deep - 0.02, z + h / 2 + 0.02
         t.add("plate", box((thick, wide, top - low), (h / 2 + thick / 2, 0, (top + low) / 2)))
         spots = [(s * 0.3 * wide, float(q)) for q in np.linspace(low + 0.05, top - 0.045, self.lines) for s in BOTH]
         for (y, q), head in zip(spots, self.heads, strict=True):
@@ -267,11 +267,11 @@ class Splice(_Joint, name="gusset plate/splice"):
     wide: float = between(0.6, 1.0, "width of the beam / height")
     half: float = between(0.5, 1.2, "length of the beam on either side", "m")
     level: float = between(0.5, 1.5, "height of the beam's middle", "m")
-    thick: float = among((0.006, 0.01), "of the cover plates", "m")
-    bolt: float = among((0.012, 0.016), "diameter of the bolts", "m")
-    gussets: bool = chance(0.5, "the covers are taken for gusset plates")
-    lines: int = whole(2, 3, "rows of bolts on either side")
     covered: bool = chance(0.75, "cover plates, not end plates")
+    thick: float = among((0.006, 0.01), "of the cover plates", "m", when=lambda p: p.covered)
+    bolt: float = among((0.012, 0.016), "diameter of the bolts", "m")
+    gussets: bool = chance(0.5, "the covers are taken for gusset plates", when=lambda p: p.covered)
+    lines: int = whole(2, 3, "rows of bolts on either side", when=lambda p: p.covered)
     heads: tuple[str, ...] = several(
         one_of("hex", "flange"), lambda p: 8 * p.lines, "heads of the bolts in the flanges", when=lambda p: p.covered
     )

@@ -186,7 +186,7 @@ class SwivelRing(Hanger, name="pipe hanger/swivel ring", sizes=SIZES[:10]):
 class ThreeBolt(Hanger, name="pipe hanger/three-bolt"):
     """A three-bolt clamp (MSS SP-58 type 3): long upper ears, their load bolt carries an eye rod."""
 
-    hangers: tuple[bool, ...] = several(yes(0.5), 2, "whether the first half, which counts, is a hanger, not a clamp")
+    hanger: bool = chance(0.5, "the clamp is taken for a hanger")
     arm: float = between(0.02, 0.08, "length of the upper ears - 4 rods", "m")
     drop: float = between(0.2, 0.7, "from the eye to the end of the rod", "m")
     above: _Attached = _attached()
@@ -196,7 +196,7 @@ class ThreeBolt(Hanger, name="pipe hanger/three-bolt"):
         thick, wide, blade, ear = 0.005 + 0.02 * r, 0.03 + 0.22 * r, d, 2.6 * d
         start, end = r + thick + 0.8 * ear, r + thick + ear + 4.0 * d + self.arm
         half, tip = half_band(r, thick, wide, ear, t.style, blade), end + 0.2 * ear
-        name = _NAME if self.hangers[0] else "clamp"
+        name = _NAME if self.hanger else "clamp"
         for s in BOTH:
             link = box((wide, thick, tip - start), (0, s * (blade + thick) / 2, (start + tip) / 2))
             t.add(name, moved(half, spun("x", -s * np.pi / 2)), link)

@@ -133,8 +133,8 @@ class _Rod(Params):
     """A tension rod from a corner to the middle."""
 
     low: bool = given(False, "from a lower corner")
-    turnbuckle: bool = chance(0.7, "a turnbuckle, of lower rods")
-    place: float = between(0.3, 0.5, "where that is / half the diagonal", when=lambda p: p.low and p.turnbuckle)
+    turnbuckle: bool = chance(0.7, "a turnbuckle", when=lambda p: p.low)
+    place: float = between(0.3, 0.5, "where that is / half the diagonal", when=lambda p: p.turnbuckle)
 
 
 class TieRods(Fitting, name="gusset plate/tie rods", label="gusset plate"):
@@ -190,7 +190,7 @@ class TieRods(Fitting, name="gusset plate/tie rods", label="gusset plate"):
         t.add("brace", rod(hole + way * 5.0 * d, end, d / 2, sides))
         if radius:
             add_piece(t, "nut", rod(end + way * 1.2 * d, end - way * 0.4 * d, 0.95 * d, 6))
-        elif self.rods[k].low and self.rods[k].turnbuckle:
+        elif self.rods[k].turnbuckle:
             start = hole + way * self.rods[k].place * span
             add_piece(t, "nut", rod(start, start + way * 8 * d, 0.95 * d, 6))
 

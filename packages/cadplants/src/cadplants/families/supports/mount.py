@@ -39,8 +39,8 @@ class Hinge(Fitting, Feet, name="bracket/hinge", label=_B):
     wide: float = between(0.5, 1.0, "width of the gate", "m")
     pin: float = among((0.005, 0.008, 0.012), "radius of the pins", "m")
     count: int = whole(2, 3, "hinges")
-    size: float = among((0.06, 0.08, 0.1), "width of the post", "m")
     posted: bool = chance(0.7, "on a post, not on a wall")
+    size: float = among((0.06, 0.08, 0.1), "width of the post", "m", when=lambda p: p.posted)
     foot: Footing = foot_of("foot of the post", when=lambda p: p.posted)
     section: Section = section_of("section of the post", flat=True, when=lambda p: p.posted)
     taken: str = among(("post", "column"), "what the post is taken for", when=lambda p: p.posted)
@@ -104,8 +104,8 @@ class CornerAngles(Fitting, name="bracket/corner", label=_B):
     footed: bool = chance(0.5, "plates under the posts")
     middle: float = between(0.25, 0.6, "height of the lower beam / of the frame")
     leg: float = between(0.9, 2.2, "length of an angle's leg / width of a profile")
-    broad: float = between(0.6, 0.98, "width of an angle / of a profile")
     form: str = among(("cast", "bent", "triangle", "flat"), "how the angles are made")
+    broad: float = between(0.6, 0.98, "width of an angle / of a profile", when=lambda p: p.form != "flat")
 
     def build(self, t: Table) -> Model:
         table, s, w, h, t = t, self.size, self.wide, self.high, t.at(0, 0, 0.008 if self.footed else 0.0)

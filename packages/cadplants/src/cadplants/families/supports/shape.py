@@ -263,7 +263,7 @@ class Footing(Feet):
     hole: float = among((0.006, 0.008, 0.01), "radius of a hole", "m")
     round: bool = chance(0.25, "the plate is round")
     corner: float = among((0.0, 0.01), "radius of the plate's corners", "m", when=lambda p: not p.round)
-    slotted: bool = chance(0.3, "long holes in a square plate", when=lambda p: p.holes)
+    slotted: bool = chance(0.3, "long holes", when=lambda p: p.holes and not p.round)
     bolted: bool = chance(0.6, "bolts in the holes", when=piecemeal)
     ribbed: bool = chance(0.3, "ribs from the plate to the shaft, where there is room", when=piecemeal)
 
@@ -292,7 +292,7 @@ class Footing(Feet):
         holes: tuple[Floats, ...] = ()
         if self.holes:
             slot = rounded_rectangle(2 * hole, 3.4 * hole, 0.99 * hole, 3)
-            holes = tuple(slot + s if self.slotted and not self.round else circle(hole, 8, s) for s in spots)
+            holes = tuple(slot + s if self.slotted else circle(hole, 8, s) for s in spots)
         t.add("base plate", extrude(outline, low, top, holes))
         if self.bolted:
             screw = merge([cylinder(0.9 * hole, 0.0, top + 3.2 * hole, 8), hexagon(3.0 * hole, top, top + 1.6 * hole)])
@@ -339,11 +339,11 @@ def _leg_of(source: Source, p: Any) -> _Leg:
 
 
 def _block(p: Any) -> bool:
-    return bool(p.free < 0.3 or p.form == "block")
+    return bool(p.form == "block")
 
 
 def _on(*forms: str) -> When:
-    return lambda p: p.form in forms and not _block(p)
+    return lambda p: p.form in forms
 
 
 _BEAM = ("portal", "tee", "column", "wall")
@@ -353,8 +353,8 @@ class Below(Feet):
     """What a support stands on: a concrete block, a post with a plate, a portal, a T, an arm off column or wall."""
 
     free: float = given(1.0, "height of the support over the floor", "m")
-    size: float = among((0.05, 0.06, 0.08, 0.1, 0.12), "height of a section", "m")
-    form: str = among(("block", "post", *_BEAM), "what it is; a block where it is low")
+    form: str = among(("block", "post", *_BEAM), "what it is", when=lambda p: p.free >= 0.3, otherwise="block")
+    size: float = among((0.05, 0.06, 0.08, 0.1, 0.12), "height of a section", "m", when=lambda p: not _block(p))
     wide: float = between(0.1, 0.3, "width of the block - of the support", "m", when=_block)
     deep: float = between(0.15, 0.4, "depth of the block", "m", when=_block)
     head: float = among((0.006, 0.01, 0.012), "thickness of the post's head plate", "m", when=_on("post"))
@@ -386,11 +386,13 @@ class Below(Feet):
         outline, holes = self.section.outline(size, t.style)
         ends = {"column": (-half - 0.05, y - 0.06), "wall": (-half - 0.05, y)}.get(self.form, (-span, span))
         t.add("beam", bar((0, ends[0], z), (0, ends[1], z), outline, holes))
+        # A leg is cut out for a round beam and welded round it.
+        under = top - (0.85 if self.section.form == "round" else 1.0) * size
         if self.form == "portal":
             for s in BOTH:
-                self.leg.build(t.at(0, s * (span - size / 2)), low, top - size, size)
+                self.leg.build(t.at(0, s * (span - size / 2)), low, under, size)
         elif self.form == "tee":
-            self.leg.build(t, low, top - size, size)
+            self.leg.build(t, low, under, size)
         elif self.form == "column":
             t.at(0, y).add("column", extrude(section_i(0.12, 0.12, 0.006, 0.009), low, top + self.rise))
         else:
@@ -404,11 +406,6 @@ def standing(depth: Callable[[Any], float], when: When | None = None) -> Below:
     return nested(Below, "what it stands on", fixed=lambda p: {"free": p.height - depth(p), **_feet(p)}, when=when)
 
 
-def _beside(p: Any) -> bool:
-    """Whether a beam runs along the line, which leaves no place for legs."""
-    return bool(p.along and p.half < 0.04)
-
-
 class Overhead(Feet):
     """What a hanger hangs from: a beam along or across, alone or on legs or on a column."""
 
@@ -417,18 +414,16 @@ class Overhead(Feet):
     size: float = among((0.08, 0.1, 0.14, 0.18), "height of the beam", "m")
     section: Section = section_of("section of the beam", flat=True)
     over: float = between(0.2, 0.6, "how far the beam reaches past the hanger", "m")
-    along: bool = chance(0.3, "along the line, where the hanger is slender")
-    held: int = whole(0, 2, "hangs free, on two legs, on a column", when=lambda p: p.height < 3.0)
-    leg: _Leg = nested(_pair_of, "each of its legs", when=lambda p: p.held == 1 and not _beside(p))
+    along: bool = chance(0.3, "along the line, which leaves no place for legs", when=lambda p: p.half < 0.04)
+    held: int = whole(0, 2, "hangs free, on two legs, on a column", when=lambda p: p.height < 3.0 and not p.along)
+    leg: _Leg = nested(_pair_of, "each of its legs", when=lambda p: p.held == 1)
 
     def build(self, t: Table, low: float) -> None:
         """Puts it down, its underside at ``low`` [m]."""
         size, span, floor = self.size, self.half + self.over, -self.height
-        x, y = (span, 0.0) if _beside(self) else (0.0, span)
+        x, y = (span, 0.0) if self.along else (0.0, span)
         outline, holes = self.section.outline(size, t.style)
         t.add("beam", bar((-x, -y, low + size / 2), (x, y, low + size / 2), outline, holes))
-        if _beside(self):
-            return
         if self.held == 1:
             for s in BOTH:
                 self.leg.build(t.at(0, s * (span - size / 2)), floor, low, size)

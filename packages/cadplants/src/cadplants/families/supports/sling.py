@@ -153,8 +153,8 @@ class Hook(Hanger, name="pipe hanger/hook"):
 class Chain(Hanger, name="pipe hanger/chain"):
     """A line in a sling of chain or wire rope with a shackle, a hook or thimble clips below an eye on a beam."""
 
-    wide: float = among((0.0, 0.03), "width of a flat sling over 20 mm", "m")
     flat: bool = chance(0.4, "the sling is flat")
+    wide: float = among((0.0, 0.03), "width of the sling over 20 mm", "m", when=lambda p: p.flat, otherwise=0.0)
     drop: float = between(0.15, 0.6, "length of the chain or rope", "m")
     links: bool = chance(0.6, "a chain, not a rope")
     over: Overhead = hung()

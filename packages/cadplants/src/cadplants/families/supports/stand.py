@@ -188,7 +188,7 @@ class GuidedShoe(Bracket, name="bracket/guided shoe"):
     """A shoe of a split beam, a box or an H on a slide plate between guide angles with hold-down lips (EN 13480-3)."""
 
     form: str = among(("tee", "box", "H"), "how the shoe is made")
-    ribbed: bool = chance(0.5, "gussets on a tee", when=lambda p: p.form != "H")
+    ribbed: bool = chance(0.5, "gussets", when=lambda p: p.form == "tee")
     slide: float = among((0.0, 0.003, 0.006), "thickness of the slide plate", "m")
     lips: bool = chance(0.6, "the guides hold it down")
     reach: float = between(0.3, 1.0, "length of the guides / 0.6 of the shoe")
@@ -200,7 +200,7 @@ class GuidedShoe(Bracket, name="bracket/guided shoe"):
         tall, length, half = 0.06 + 0.35 * r, 0.15 + 0.7 * r, 0.035 + 0.55 * r
         top, base, side = -r - tall, -r - tall - self.slide, 2 * half + 0.2
         t.add(_B, *self._shoe(t, r, top, length, half))
-        for x in (-0.4 * length, 0.4 * length) if self.ribbed and self.form == "tee" else ():
+        for x in (-0.4 * length, 0.4 * length) if self.ribbed else ():
             for s in BOTH:
                 rib = outline(s * thick / 2, top + thick, s * 0.9 * half, top + thick, s * thick / 2, -r - 0.002)
                 t.add("gusset plate", slab_yz(rib, x - 0.004, x + 0.004))

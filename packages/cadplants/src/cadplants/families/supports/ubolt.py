@@ -65,8 +65,8 @@ class OnAngle(_UBolt, name="u-bolt/angle"):
     """A round U-bolt (DIN 3570) through the level leg of an angle (EN 10056), with lock nuts above and below."""
 
     thick: float = among((0.005, 0.006, 0.008), "of the angle", "m")
-    spare: float = between(0.01, 0.03, "width of the angle - 2.5 bars", "m")
-    reach: float = between(0.04, 0.25, "how far the angle reaches past the U-bolt", "m")
+    spare: float = between(0.025, 0.045, "width of the angle - 2.5 bars", "m")
+    reach: float = between(0.04, 0.25, "from the U-bolt to a post", "m")
     hanging: bool = chance(0.5, "its other leg hangs on the left, not on the right")
     thread: float = between(2.0, 4.0, "thread under the angle / bar")
     twice: bool = chance(0.4, "lock nuts")
@@ -83,8 +83,8 @@ class OnAngle(_UBolt, name="u-bolt/angle"):
 
     def build(self, t: Table) -> Model:
         d, top = _bar(self), -t.pipe.radius
-        leg, side = d / 2 - top, max(0.04, 2.5 * d + self.spare)
-        reach, under = leg + self.reach, top - self.thick
+        leg, side, size, foot = d / 2 - top, 2.5 * d + self.spare, self.post.size, self.post.foot
+        reach, under = leg + self.reach + size, top - self.thick
         # The level leg lies under the line, the other one hangs down at its edge.
         angle = (section_angle(side, self.thick) @ np.diag([1.0, -1.0]))[::-1] - (0.55 * side, 0)
         t.add("u-bolt", bow(leg, under - d * self.thread, d / 2, t.style))
@@ -92,9 +92,9 @@ class OnAngle(_UBolt, name="u-bolt/angle"):
         if self.upper:
             add_nuts(t.spun("x", np.pi), [(0, s * leg, -top) for s in BOTH], d, False)
         t.add(self.taken, bar((0, -reach, top), (0, reach, top), angle if self.hanging else (angle * (-1, 1))[::-1]))
-        size, foot = self.post.size, self.post.foot
+        edge = (0.55 * side - size / 2) * (1 if self.hanging else -1)
         for s in BOTH if self.both else (1,):
-            at_end = t.at(0.03, s * (reach - 0.02))
+            at_end = t.at(edge, s * (reach - size / 2))
             at_end.add("post", extrude(rounded_rectangle(size, size, 0.004, 1), foot.top - self.height, top - side))
             foot.build(at_end.at(0, 0, -self.height), size + 0.08, size)
         return t.model()
@@ -130,9 +130,9 @@ class Upright(_UBolt, name="u-bolt/upright"):
     thick: float = among((0.006, 0.008, 0.01), "of the plate or flange", "m")
     tall: float = between(0.01, 0.08, "height of the plate - of the U-bolt and 4 bars", "m")
     wide: float = between(0, 0.08, "width of the plate - 50 mm", "m")
-    corner: float = among((0.0, 0.01), "radius of the plate's corners", "m")
     washers: bool = chance(0.7, "washers")
     backing: str = among(("column", "post", "wall"), "what stands beside the line")
+    corner: float = among((0.0, 0.01), "radius of the plate's corners", "m", when=lambda p: p.backing != "column")
     over: float = between(0.02, 0.6, "how far that rises over the plate", "m")
 
     def build(self, t: Table) -> Model:
@@ -331,7 +331,7 @@ class Hung(_UBolt, name="u-bolt/hung"):
 
     play: float = among((0.0, 0.0, 0.004), "between the line and the U-bolt", "m")
     clear: float = among((0.0, 0.0, 0.05, 0.15), "usual distance from the line to the beam over it", "m")
-    factor: float = between(0.6, 1.4, "that distance / the usual one")
+    factor: float = between(0.6, 1.4, "that distance / the usual one", when=lambda p: p.clear > 0)
     twice: bool = chance(0.5, "lock nuts")
     sleeve: bool = chance(0.4, "a sleeve round the line")
     reach: float = between(0.1, 0.35, "how far the beam reaches past the U-bolt", "m")
