@@ -13,11 +13,11 @@ from cadgraph.model.graph import SceneGraph
 from cadgraph.model.labels import Label
 from cadgraph.model.records import Dial, GraphDocument, Mechanism, Site, SourceRecord, Unit, points
 from cadplants import UsdStyle, truth_path
-from cadplants.mesh_ops import merge, moved
-from cadplants.plant import Component, Plant
-from cadplants.plant import Unit as PlantUnit
-from cadplants.primitives import along, box, cylinder, torus
-from cadplants.transforms import at, spun
+from cadplants.model.plant import Component, Plant
+from cadplants.model.plant import Unit as PlantUnit
+from cadplants.solids.mesh_ops import merge, moved
+from cadplants.solids.primitives import along, box, cylinder, torus
+from cadplants.solids.transforms import at, spun
 from cadplants.writers import write_plant
 
 RED, BLUE, GREY = (0.7, 0.1, 0.1), (0.1, 0.2, 0.6), (0.5, 0.5, 0.55)

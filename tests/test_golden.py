@@ -6,8 +6,8 @@ import pytest
 
 from cadgraph.session.run import run
 from cadplants import PRESETS, STYLES, make, write_usd
-from cadplants.family import as_assembly
-from cadplants.taste import ALL_FAMILIES
+from cadplants.model.family import as_assembly
+from cadplants.presets.taste import ALL_FAMILIES
 from golden_digest import Records, of_components, of_graph
 
 IN_STYLES = ("plant-design", "bim", "game")

@@ -26,8 +26,7 @@ ROOT = Path(__file__).resolve().parents[1]
 PICTURE = ROOT / "docs" / "architecture.svg"
 
 PRODUCT = "cadgraph"
-SPLIT = ("draw",)  # folders whose folders are rooms of their own
-WHOLE = ("cadplants",)  # packages that are one room
+SPLIT = ("draw", "simulate")  # folders whose folders are rooms of their own
 
 _INK, _FAINT, _PAPER, _RED = "#1f2933", "#5d6873", "#ffffff", "#d11f2f"
 _COLORS = ("#1f6fd1", "#0f8a74", "#8a45e6", "#b8790b", "#0b7c9e", "#7a5c3e", "#5b7a1f", "#b0408f", "#3d4f8f", "#c05a1a")
@@ -127,9 +126,6 @@ def read_house(tree: Path) -> House:
 
 
 def _room_of(steps: Sequence[str]) -> str:
-    package = steps[0]
-    if package in WHOLE:
-        return package
     deep = len(steps) > 3 and steps[1] in SPLIT
     return "/".join(steps[: 3 if deep else 2])
 

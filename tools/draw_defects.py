@@ -26,9 +26,9 @@ from cadgraph.model.truth import Truth
 from cadgraph.pipeline import build
 from cadlab.evaluate.evaluation import evaluate
 from cadplants import Defects, Plant, make
-from cadplants.defects import DEFECTS
-from cadplants.plant import Component
-from cadplants.truth_writer import truth_of
+from cadplants.faults.defects import DEFECTS
+from cadplants.model.plant import Component
+from cadplants.truth.truth_writer import truth_of
 
 PRESET, SEED, STYLE = "loop", 11, "plant-design"
 CELL, CAPTION, COLUMNS = (350, 240), 64, 5  # px

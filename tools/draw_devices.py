@@ -20,10 +20,10 @@ from cadgraph.draw.render.color import source_colors
 from cadgraph.draw.render.picture import Look, Paint, Renderer
 from cadgraph.model.scene import Scene
 from cadlab.markdown import table
-from cadplants.family import Family
-from cadplants.plant import Plant
-from cadplants.single_device import draw_parameters, make_device
-from cadplants.taste import ALL_FAMILIES
+from cadplants.model.family import Family
+from cadplants.model.plant import Plant
+from cadplants.presets.single_device import draw_parameters, make_device
+from cadplants.presets.taste import ALL_FAMILIES
 
 SEEDS = range(5)
 CELL = (168, 150)  # px

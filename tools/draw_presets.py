@@ -14,7 +14,7 @@ from cadgraph.draw.render.color import source_colors
 from cadgraph.draw.render.picture import Look, Paint, Renderer
 from cadgraph.model.scene import Scene
 from cadplants import make
-from cadplants.plant import Plant
+from cadplants.model.plant import Plant
 
 PRESETS = ("skid", "riser", "tank", "pumps", "rack", "field")
 SEEDS = range(5)

@@ -19,7 +19,7 @@ from cadgraph.query.lines import find_lines
 from cadgraph.query.polyline import Polyline
 from cadgraph.session.run import run
 from cadplants import make, write_usd
-from cadplants.usd import truth_path
+from cadplants.writers.usd import truth_path
 from pcf_reader import Pcf
 
 PIPING = "Pipe assembly"

@@ -17,7 +17,7 @@ from cadgraph.model.scene import Scene
 from cadgraph.model.vocabulary import default_vocabulary
 from cadgraph.stages.preprocess import prepare_scene
 from cadlab.training.example import make_parts_from
-from cadplants.preset import make
+from cadplants.presets.preset import make
 from plates import parts_of
 
 NO_CONTACTS = Contacts(np.zeros((0, 2), np.int64), np.zeros(0), np.zeros((0, 2, 3)))

@@ -10,7 +10,7 @@ from cadgraph.labelers.embedded.descriptor import FORMS, SIZES, describe_shapes
 from cadgraph.labelers.embedded.edges import edge_features
 from cadgraph.model.parts import Parts
 from cadgraph.model.scene import Scene
-from cadplants.authoring_systems import SYSTEMS, make_in_system
+from cadplants.presets.authoring_systems import SYSTEMS, make_in_system
 from fittings import MESHERS
 
 

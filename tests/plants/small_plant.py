@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from cadplants.mesh_ops import merge, moved, tube
-from cadplants.plant import Component, Connection, Line, Plant, Point, Unit
-from cadplants.primitives import along, ball, box, cylinder, dome, hexagon, ring, turned
-from cadplants.transforms import arc, at, spun
+from cadplants.model.plant import Component, Connection, Line, Plant, Point, Unit
+from cadplants.solids.mesh_ops import merge, moved, tube
+from cadplants.solids.primitives import along, ball, box, cylinder, dome, hexagon, ring, turned
+from cadplants.solids.transforms import arc, at, spun
 
 STEEL, BLUE, RED = (0.5, 0.5, 0.55), (0.1, 0.2, 0.6), (0.7, 0.1, 0.1)
 SIDES = 12

@@ -6,9 +6,9 @@ import pytest
 
 from cadgraph.model.vocabulary import default_vocabulary
 from cadplants import STYLES, make
-from cadplants.assortment import FAMILIES, draw_modeling_style, make_assortment
-from cadplants.taste import Taste
-from cadplants.truth_writer import truth_of
+from cadplants.presets.assortment import FAMILIES, draw_modeling_style, make_assortment
+from cadplants.presets.taste import Taste
+from cadplants.truth.truth_writer import truth_of
 
 pytestmark = pytest.mark.slow
 

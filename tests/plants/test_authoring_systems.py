@@ -6,19 +6,19 @@ import pytest
 
 from cadgraph.model.truth import Truth
 from cadgraph.model.vocabulary import default_vocabulary
-from cadplants.assortment import make_assortment
-from cadplants.authoring_systems import SYSTEMS, draw_system, make_in_system
-from cadplants.defects import Defects
 from cadplants.families import FAMILIES
 from cadplants.families.lookalikes.lookalike import LOOKALIKES
 from cadplants.families.primitive.primitive import PRIMITIVES
-from cadplants.flange import flange
-from cadplants.modeling_style import STYLES
-from cadplants.omissions import OMISSIONS
-from cadplants.piping import outlet
-from cadplants.taste import ALL_FAMILIES, Taste
-from cadplants.truth_check import prove
-from cadplants.truth_writer import truth_of
+from cadplants.faults.defects import Defects
+from cadplants.faults.omissions import OMISSIONS
+from cadplants.parts.flange import flange
+from cadplants.parts.piping import outlet
+from cadplants.presets.assortment import make_assortment
+from cadplants.presets.authoring_systems import SYSTEMS, draw_system, make_in_system
+from cadplants.presets.taste import ALL_FAMILIES, Taste
+from cadplants.styles.modeling_style import STYLES
+from cadplants.truth.truth_check import prove
+from cadplants.truth.truth_writer import truth_of
 from plants.solids import is_closed, shell_volumes
 
 OF_PRIMITIVES = Defects(devices="primitives").of_style(STYLES["plant-design"])

@@ -3,23 +3,23 @@ import pytest
 
 from cadgraph.model.vocabulary import default_vocabulary
 from cadplants import STYLES
-from cadplants.access import platform, railing, stairs
-from cadplants.brand import Brand
-from cadplants.electrical import cabinet, cable_tray, lamp, sign
-from cadplants.enclosure import fence, pillar
-from cadplants.fastener import bolt, pipe_support
-from cadplants.flange import flange, flange_length, gasket
-from cadplants.gauge import pressure_gauge
-from cadplants.instrument import meter_at, strainer_at, valve_at
-from cadplants.layout import Run, lay
-from cadplants.piping import cap, elbow, outlet, pipe, reducer, tee
-from cadplants.plant import gather
-from cadplants.pump import pump
-from cadplants.route import Route
-from cadplants.standards import ELBOW_LONG_RADIUS, FACE_TO_FACE, FLANGES, PIPES, SIZES
-from cadplants.structure import caster, deck, post
-from cadplants.valve import VALVES, valve_length
-from cadplants.vessel import Nozzle, tank
+from cadplants.lines.instrument import meter_at, strainer_at, valve_at
+from cadplants.lines.layout import Run, lay
+from cadplants.lines.route import Route
+from cadplants.model.plant import gather
+from cadplants.model.standards import ELBOW_LONG_RADIUS, FACE_TO_FACE, FLANGES, PIPES, SIZES
+from cadplants.parts.access import platform, railing, stairs
+from cadplants.parts.brand import Brand
+from cadplants.parts.electrical import cabinet, cable_tray, lamp, sign
+from cadplants.parts.enclosure import fence, pillar
+from cadplants.parts.fastener import bolt, pipe_support
+from cadplants.parts.flange import flange, flange_length, gasket
+from cadplants.parts.gauge import pressure_gauge
+from cadplants.parts.piping import cap, elbow, outlet, pipe, reducer, tee
+from cadplants.parts.pump import pump
+from cadplants.parts.structure import caster, deck, post
+from cadplants.parts.valve import VALVES, valve_length
+from cadplants.parts.vessel import Nozzle, tank
 from plants.solids import is_closed, least_edge, shell_volumes, touching
 
 pytestmark = pytest.mark.slow

@@ -7,11 +7,11 @@ import pytest
 from cadgraph.geometry.contact.pairs import distances
 from cadgraph.model.truth import Truth
 from cadplants import STYLES, Defects, degrade, make
-from cadplants.chainage import Axis
-from cadplants.defects import DEFECTS
-from cadplants.truth_check import prove
-from cadplants.truth_writer import truth_of
-from cadplants.tubes import find_joints, find_tubes
+from cadplants.faults.chainage import Axis
+from cadplants.faults.defects import DEFECTS
+from cadplants.faults.tubes import find_joints, find_tubes
+from cadplants.truth.truth_check import prove
+from cadplants.truth.truth_writer import truth_of
 from plants.solids import is_closed, shell_volumes
 
 SEED = 3

@@ -6,14 +6,14 @@ import pytest
 from cadgraph.geometry.mesh.properties import measure
 from cadgraph.model.truth import Truth
 from cadplants import STYLES, make
-from cadplants.detail import marked_gauge, plate, screw
-from cadplants.field import make_field
-from cadplants.gauge import pressure_gauge
-from cadplants.lettering import letters
-from cadplants.part_oracle import SMALL, find_parts
-from cadplants.plant import Plant
-from cadplants.truth_check import prove
-from cadplants.truth_writer import truth_of
+from cadplants.model.plant import Plant
+from cadplants.parts.detail import marked_gauge, plate, screw
+from cadplants.parts.gauge import pressure_gauge
+from cadplants.presets.field import make_field
+from cadplants.solids.lettering import letters
+from cadplants.truth.part_oracle import SMALL, find_parts
+from cadplants.truth.truth_check import prove
+from cadplants.truth.truth_writer import truth_of
 from plants.solids import is_closed, shell_volumes
 
 pytestmark = pytest.mark.slow

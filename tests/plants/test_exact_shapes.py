@@ -2,9 +2,9 @@ import numpy as np
 import pytest
 from scipy.spatial import ConvexHull
 
-from cadplants.mesh_ops import Solid, merge, moved, tube, volume
-from cadplants.primitives import along, ball, bar, box, cylinder, dome, hexagon, ring, rod, torus, turned
-from cadplants.transforms import arc, at, spun
+from cadplants.solids.mesh_ops import Solid, merge, moved, tube, volume
+from cadplants.solids.primitives import along, ball, bar, box, cylinder, dome, hexagon, ring, rod, torus, turned
+from cadplants.solids.transforms import arc, at, spun
 from cadplants.writers.exact_shapes import fit, surface
 
 TURNED = at(3, -2, 1) @ spun("x", 0.4) @ spun("z", 1.1)

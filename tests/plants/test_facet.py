@@ -3,9 +3,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from cadplants.mesh_ops import Solid, box, extrude, merge, revolve, tube, weld
-from cadplants.polygon import circle, section_i
-from cadplants.tessellate import facets
+from cadplants.solids.mesh_ops import Solid, box, extrude, merge, revolve, tube, weld
+from cadplants.solids.polygon import circle, section_i
+from cadplants.solids.tessellate import facets
 
 pytestmark = pytest.mark.slow
 

@@ -5,12 +5,12 @@ import numpy as np
 import pytest
 
 from cadgraph.model.vocabulary import default_vocabulary
-from cadplants.drawn_styles import draw_modeling_style
-from cadplants.family import UNIT, Family, Model, Part, as_assembly, as_device
-from cadplants.modeling_style import STYLES
-from cadplants.plant import Device
-from cadplants.primitives import box
-from cadplants.taste import ALL_FAMILIES
+from cadplants.model.family import UNIT, Family, Model, Part, as_assembly, as_device
+from cadplants.model.plant import Device
+from cadplants.presets.taste import ALL_FAMILIES
+from cadplants.solids.primitives import box
+from cadplants.styles.drawn_styles import draw_modeling_style
+from cadplants.styles.modeling_style import STYLES
 from plants.solids import is_closed, shell_volumes
 
 # Every style, but none finer than 16 sides, so that hundreds of builds stay quick.

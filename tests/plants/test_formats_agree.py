@@ -8,8 +8,8 @@ from cadgraph.model.truth import Truth
 from cadgraph.pipeline import build
 from cadlab.evaluate.evaluation import evaluate
 from cadplants import make
-from cadplants.matching import truth_for
 from cadplants.writers import write_plant
+from cadplants.writers.matching import truth_for
 
 NONE: dict[str, object] = {}
 OPEN = {"load.unit": "mm", "load.up": "Y"}

@@ -1,6 +1,6 @@
 from pathlib import Path
 
-from cadplants.taste import ALL_FAMILIES
+from cadplants.presets.taste import ALL_FAMILIES
 
 GALLERY = Path(__file__).parents[2] / "docs" / "devices"
 

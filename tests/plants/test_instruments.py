@@ -5,8 +5,8 @@ from dataclasses import replace
 import pytest
 
 from cadplants.families.instruments.measuring import MEASURING
-from cadplants.modeling_style import STYLES
-from cadplants.single_device import draw_parameters
+from cadplants.presets.single_device import draw_parameters
+from cadplants.styles.modeling_style import STYLES
 from plants.solids import shell_volumes
 
 STYLE = replace(STYLES["mechanical"], sides=(12, 16))

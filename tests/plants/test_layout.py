@@ -2,10 +2,10 @@ import numpy as np
 import pytest
 
 from cadplants import STYLES
-from cadplants.instrument import gauge_tap, reducer_at, tee_at, valve_at
-from cadplants.layout import Inline, Run, lay
-from cadplants.route import Route
-from cadplants.standards import ELBOW_LONG_RADIUS
+from cadplants.lines.instrument import gauge_tap, reducer_at, tee_at, valve_at
+from cadplants.lines.layout import Inline, Run, lay
+from cadplants.lines.route import Route
+from cadplants.model.standards import ELBOW_LONG_RADIUS
 
 HAND = STYLES["plant-design"]
 STRAIGHT = Route(np.array([(0.0, 0.0, 0.0), (3.0, 0.0, 0.0)]))

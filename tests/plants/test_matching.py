@@ -4,7 +4,7 @@ import pytest
 from cadgraph.model.scene import Scene
 from cadgraph.model.truth import Truth
 from cadplants import match, truth_for, write_plant
-from cadplants.truth_writer import truth_of
+from cadplants.truth.truth_writer import truth_of
 from cadplants.writers.placing import shells
 from plants.small_plant import small_plant
 

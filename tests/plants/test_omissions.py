@@ -3,13 +3,13 @@ import pytest
 
 from cadgraph.model.truth import Truth
 from cadgraph.model.vocabulary import default_vocabulary
-from cadplants.flange import GASKET
-from cadplants.omissions import OMISSIONS, omitted
-from cadplants.plant import Component, Plant, Unit
-from cadplants.preset import make
-from cadplants.primitives import box
-from cadplants.truth_check import prove
-from cadplants.truth_writer import truth_of
+from cadplants.faults.omissions import OMISSIONS, omitted
+from cadplants.model.plant import Component, Plant, Unit
+from cadplants.parts.flange import GASKET
+from cadplants.presets.preset import make
+from cadplants.solids.primitives import box
+from cadplants.truth.truth_check import prove
+from cadplants.truth.truth_writer import truth_of
 
 
 @pytest.fixture(scope="module")

@@ -16,8 +16,8 @@ from cadplants.builder.params import (
     weighted,
     whole,
 )
-from cadplants.modeling_style import STYLES
-from cadplants.primitives import box
+from cadplants.solids.primitives import box
+from cadplants.styles.modeling_style import STYLES
 
 
 class Knob(Params):

@@ -10,10 +10,10 @@ from cadgraph.model.scene import Scene
 from cadplants import make
 from cadplants.families.lookalikes.lookalike import LOOKALIKES
 from cadplants.families.primitive.primitive import PRIMITIVES
-from cadplants.family import as_assembly
-from cadplants.flange import flange
-from cadplants.modeling_style import STYLES
-from cadplants.taste import ALL_FAMILIES
+from cadplants.model.family import as_assembly
+from cadplants.parts.flange import flange
+from cadplants.presets.taste import ALL_FAMILIES
+from cadplants.styles.modeling_style import STYLES
 from plants.solids import shell_volumes, shells
 
 STYLE = replace(STYLES["mechanical"], sides=(12, 16))

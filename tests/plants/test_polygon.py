@@ -3,7 +3,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from cadplants.polygon import circle, rounded_rectangle, section_channel, section_i, triangulate
+from cadplants.solids.polygon import circle, rounded_rectangle, section_channel, section_i, triangulate
 
 
 def area(points):

@@ -5,7 +5,7 @@ import pytest
 
 from cadgraph.model.vocabulary import default_vocabulary
 from cadplants import PRESETS, STYLES, Defects, degrade, make
-from cadplants.truth_writer import truth_of
+from cadplants.truth.truth_writer import truth_of
 from plants.solids import is_closed, shell_volumes, touching
 
 SMALL = [name for name in PRESETS if name not in ("assortment", "field")]

@@ -6,9 +6,9 @@ import pytest
 from cadgraph.load import load
 from cadgraph.model.truth import Truth
 from cadplants import degrade, draw_defects, draw_style, make, truth_path, write_usd
-from cadplants.transforms import at
-from cadplants.truth_check import prove
-from cadplants.truth_writer import truth_of
+from cadplants.solids.transforms import at
+from cadplants.truth.truth_check import prove
+from cadplants.truth.truth_writer import truth_of
 
 SMALL = ("skid", "riser", "tank", "pumps", "rack")
 

@@ -3,9 +3,9 @@ import json
 import pytest
 
 from cadplants.builder.device import Maker
-from cadplants.single_device import draw_parameters, family_called, make_device
-from cadplants.taste import ALL_FAMILIES
-from cadplants.truth_writer import truth_of
+from cadplants.presets.single_device import draw_parameters, family_called, make_device
+from cadplants.presets.taste import ALL_FAMILIES
+from cadplants.truth.truth_writer import truth_of
 from command_line import refused, run
 
 

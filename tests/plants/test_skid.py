@@ -7,7 +7,7 @@ import pytest
 from cadgraph.errors import OutputError
 from cadgraph.model.vocabulary import default_vocabulary
 from cadplants import STYLES, UsdStyle, make_skid, truth_path, write_usd
-from cadplants.truth_writer import truth_of
+from cadplants.truth.truth_writer import truth_of
 from plants.solids import touching
 
 pytestmark = pytest.mark.slow

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from cadplants.mesh_ops import (
+from cadplants.solids.mesh_ops import (
     Branch,
     about_x,
     box,
@@ -15,8 +15,8 @@ from cadplants.mesh_ops import (
     volume,
     weld,
 )
-from cadplants.polygon import circle, rounded_rectangle
-from cadplants.transforms import arc, at, spun
+from cadplants.solids.polygon import circle, rounded_rectangle
+from cadplants.solids.transforms import arc, at, spun
 from plants.solids import is_closed, shell_volumes
 
 

@@ -3,11 +3,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from cadplants.mesh_ops import Solid, volume
-from cadplants.modeling_style import STYLES
-from cadplants.plant import Assembly, Component
-from cadplants.primitives import ball, box, cylinder, dome, hexagon, ring, rod, rope, torus, turned, waves
-from cadplants.retessellate import broken, fanned, in_rows, retold, uncapped
+from cadplants.faults.retessellate import broken, fanned, in_rows, retold, uncapped
+from cadplants.model.plant import Assembly, Component
+from cadplants.solids.mesh_ops import Solid, volume
+from cadplants.solids.primitives import ball, box, cylinder, dome, hexagon, ring, rod, rope, torus, turned, waves
+from cadplants.styles.modeling_style import STYLES
 from plants.solids import is_closed
 
 FORMS = {

@@ -6,7 +6,7 @@ from cadgraph.config import Config
 from cadgraph.geometry.contact.points import sample_surface
 from cadgraph.model.vocabulary import default_vocabulary
 from cadgraph.pipeline import build
-from cadplants.trap import VOXEL, make_bent_pipe, make_platform_and_tanks
+from cadplants.presets.trap import VOXEL, make_bent_pipe, make_platform_and_tanks
 from plants.solids import is_closed, shell_volumes
 
 TRAPS = {"pipe": make_bent_pipe, "platform": make_platform_and_tanks}

@@ -13,7 +13,7 @@ from cadgraph.config import LoadConfig
 from cadgraph.load import load
 from cadgraph.model.truth import Truth
 from cadplants import FileStyle, Metadata, UsdStyle, make, match, truth_for, write_plant, write_usd
-from cadplants.mesh_ops import Solid, volume
+from cadplants.solids.mesh_ops import Solid, volume
 from cadplants.writers import FORMATS, format_of
 from plants.small_plant import small_plant
 

@@ -12,7 +12,7 @@ from cadgraph.query import Network, find_isolation
 from cadlab.evaluate.pairing import pair
 from cadlab.evaluate.units import match_units
 from cadplants import make
-from cadplants.truth_writer import truth_of
+from cadplants.truth.truth_writer import truth_of
 
 NEVER = {"check valve", "control valve", "relief valve"}
 

@@ -6,9 +6,9 @@ from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import GraphDocument, Mechanism, Site
 from cadgraph.model.scene import Scene
 from cadgraph.simulate.dynamics import ARMATURE, DENSITY, SHEET, find_devices, grip
-from cadplants.mesh_ops import merge, moved
-from cadplants.primitives import box, cylinder, torus
-from cadplants.transforms import at, spun
+from cadplants.solids.mesh_ops import merge, moved
+from cadplants.solids.primitives import box, cylinder, torus
+from cadplants.solids.transforms import at, spun
 
 POSE = at(1.0, 2.0, 3.0) @ spun("x", 0.4) @ spun("z", 0.3)
 

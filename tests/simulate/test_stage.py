@@ -11,7 +11,7 @@ from cadgraph.model.graph import SceneGraph
 from cadgraph.pipeline import build
 from cadgraph.simulate.stage.writing import write_stage
 from cadplants import make
-from cadplants.usd import write_usd
+from cadplants.writers.usd import write_usd
 
 WORKED = ("V-1", "V-2", "V-3", "G-1")
 

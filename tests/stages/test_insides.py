@@ -11,7 +11,7 @@ from cadgraph.stages.insides import find_insides, join_enclosed
 from cadgraph.stages.relate.unit import Group, take_in_enclosed
 from cadplants import STYLES
 from cadplants.families import FAMILIES
-from cadplants.family import as_assembly
+from cadplants.model.family import as_assembly
 from plates import parts_of
 
 

@@ -12,13 +12,13 @@ from cadgraph.model.scene import Scene
 from cadgraph.pipeline import analyse
 from cadgraph.stages.mechanisms import find_mechanisms, report_not_movable
 from cadplants import STYLES
-from cadplants.gauge import pressure_gauge
-from cadplants.mesh_ops import merge, moved
-from cadplants.operator import handwheel
-from cadplants.plant import Assembly
-from cadplants.primitives import box, cylinder
-from cadplants.transforms import at, spun
-from cadplants.valve import VALVES, valve_length
+from cadplants.model.plant import Assembly
+from cadplants.parts.gauge import pressure_gauge
+from cadplants.parts.operator import handwheel
+from cadplants.parts.valve import VALVES, valve_length
+from cadplants.solids.mesh_ops import merge, moved
+from cadplants.solids.primitives import box, cylinder
+from cadplants.solids.transforms import at, spun
 
 GRAINS = {"one": STYLES["bim"], "few": STYLES["game"], "pieces": STYLES["plant-design"]}
 ASKEW = at(3.0, -2.0, 1.0) @ spun("z", 0.7) @ spun("x", 0.4) @ spun("y", 1.1)

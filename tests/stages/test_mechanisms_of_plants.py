@@ -6,7 +6,7 @@ from cadgraph.model.truth import Truth
 from cadgraph.pipeline import build
 from cadgraph.query.mechanisms import immovable, joint_names
 from cadplants import UsdStyle, make, write_usd
-from cadplants.truth_writer import truth_of
+from cadplants.truth.truth_writer import truth_of
 
 # Unit, up axis and instances of the file that a plant is written to.
 WAYS = {

@@ -12,11 +12,11 @@ from cadgraph.model.scene import Scene
 from cadgraph.pipeline import analyse
 from cadgraph.stages.places import find_places
 from cadplants import STYLES
-from cadplants.access import ladder, platform, platform_with_stairs
-from cadplants.gauge import pressure_gauge
-from cadplants.mesh_ops import box
-from cadplants.plant import gather
-from cadplants.transforms import at
+from cadplants.model.plant import gather
+from cadplants.parts.access import ladder, platform, platform_with_stairs
+from cadplants.parts.gauge import pressure_gauge
+from cadplants.solids.mesh_ops import box
+from cadplants.solids.transforms import at
 
 STYLE = STYLES["bim"]
 

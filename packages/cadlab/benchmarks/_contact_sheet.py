@@ -21,7 +21,7 @@ from cadgraph.labelers.lvlm.question_groups import QuestionGroup, find_question_
 from cadgraph.model.parts import Parts
 from cadgraph.pipeline import analyse
 from cadplants import make
-from cadplants.truth_writer import truth_of
+from cadplants.truth.truth_writer import truth_of
 
 SIDE, GAP = 216, 6  # px of one picture, and between two; a model sees 512
 HEAD, CAPTION = 42, 54

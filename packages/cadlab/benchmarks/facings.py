@@ -21,8 +21,8 @@ from cadgraph.model.scene import Floats
 from cadgraph.stages.places.face import kind_of_name, scores_of
 from cadplants import STYLES
 from cadplants.families import FAMILIES
-from cadplants.family import as_assembly
-from cadplants.transforms import spun
+from cadplants.model.family import as_assembly
+from cadplants.solids.transforms import spun
 
 _RIGHT = 0.9  # cosine of the angle to the true direction: 26 degrees
 _FOLDS = 4

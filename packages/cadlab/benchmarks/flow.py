@@ -30,8 +30,8 @@ from cadgraph.pipeline import build
 from cadlab.evaluate.evaluation import Evaluation, evaluate
 from cadlab.markdown import put, table
 from cadplants import PRESETS, STYLES, Defects, Plant, make
-from cadplants.defects import DEFECTS
-from cadplants.truth_writer import truth_of
+from cadplants.faults.defects import DEFECTS
+from cadplants.truth.truth_writer import truth_of
 
 PAGE = Path(__file__).parents[3] / "docs" / "flow.md"
 LABELS = {"true": "true", "embedded": "embedded labeler"}

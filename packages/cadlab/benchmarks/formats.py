@@ -22,8 +22,8 @@ from cadgraph.pipeline import build
 from cadlab.evaluate.evaluation import StructureScores, evaluate
 from cadlab.markdown import put, table
 from cadplants import make
-from cadplants.matching import truth_for
 from cadplants.writers import write_plant
+from cadplants.writers.matching import truth_for
 from cadplants.writers.metadata import Metadata
 from cadplants.writers.plant_file import FileStyle
 

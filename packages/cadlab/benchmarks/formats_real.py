@@ -41,7 +41,7 @@ from cadgraph.query.compare_source import Verdict, compare_source
 from cadgraph.query.source_text import source_lines
 from cadlab.evaluate.evaluation import evaluate
 from cadlab.markdown import put, table
-from cadplants.matching import match, truth_for
+from cadplants.writers.matching import match, truth_for
 
 ROOT = Path(__file__).parents[3]
 PAGE = ROOT / "docs" / "formats.md"

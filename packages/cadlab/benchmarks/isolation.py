@@ -26,7 +26,7 @@ from cadlab.evaluate.pairing import pair
 from cadlab.evaluate.units import match_units
 from cadlab.markdown import put, table
 from cadplants import PRESETS, STYLES, Plant, make
-from cadplants.truth_writer import truth_of
+from cadplants.truth.truth_writer import truth_of
 
 PAGE = Path(__file__).parents[3] / "docs" / "functional.md"
 MODES = {"true": "true", "embedded": "embedded labeler"}

@@ -19,7 +19,7 @@ from cadgraph.model.graph import SceneGraph
 from cadgraph.pipeline import build
 from cadlab.markdown import put, table
 from cadplants import PRESETS, STYLES, Plant, make
-from cadplants.defects import DEFECTS
+from cadplants.faults.defects import DEFECTS
 
 PAGE = Path(__file__).parents[3] / "docs" / "functional.md"
 BINS = (0.0, 0.1, 0.5, 0.7, 0.9, 0.97, 0.99, 1.0 + 1e-9)

@@ -44,7 +44,7 @@ from cadgraph.session.session import Session
 from cadlab.evaluate.evaluation import evaluate
 from cadlab.markdown import put, table
 from cadplants import make
-from cadplants.truth_writer import truth_of
+from cadplants.truth.truth_writer import truth_of
 
 PAGE = Path(__file__).parents[3] / "docs" / "lvlm.md"
 Pair = tuple[str, str]

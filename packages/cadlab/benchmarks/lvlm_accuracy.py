@@ -26,7 +26,7 @@ from cadgraph.labelers.lvlm.setup import FOLDER, Run, make_labeler
 from cadgraph.model.vocabulary import default_vocabulary
 from cadgraph.pipeline import analyse
 from cadplants import make
-from cadplants.truth_writer import truth_of
+from cadplants.truth.truth_writer import truth_of
 
 Pair = tuple[str, str | None]
 PLANTS = (("riser", "vendor"), ("tank", "bim"), ("skid", "mechanical"))

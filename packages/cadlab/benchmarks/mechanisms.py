@@ -32,7 +32,7 @@ from cadgraph.pipeline import build
 from cadgraph.query.mechanisms import immovable, say_mechanism
 from cadlab.markdown import put, table
 from cadplants import PRESETS, Plant, make
-from cadplants.truth_writer import truth_of
+from cadplants.truth.truth_writer import truth_of
 
 PAGE = Path(__file__).parents[3] / "docs" / "simulation.md"
 STYLES = ("plant-design", "game", "bim")

@@ -32,8 +32,8 @@ from cadlab.evaluate.evaluation import Evaluation, evaluate
 from cadlab.evaluate.relations import EdgeVerdict, RelationScores
 from cadlab.markdown import put, table
 from cadplants import PRESETS, STYLES, Defects, Plant, make
-from cadplants.defects import DEFECTS
-from cadplants.truth_writer import truth_of
+from cadplants.faults.defects import DEFECTS
+from cadplants.truth.truth_writer import truth_of
 
 PAGE = Path(__file__).parents[3] / "docs" / "functional.md"
 WRONG = 0.2

@@ -45,10 +45,10 @@ from cadgraph.session.review.queue import review_queue
 from cadlab.evaluate.pairing import Pairing, pair
 from cadlab.markdown import table
 from cadplants import STYLES, degrade, make
-from cadplants.authoring_systems import SYSTEMS, draw_system
-from cadplants.omissions import omitted
-from cadplants.preset import PRESETS
-from cadplants.truth_writer import truth_of
+from cadplants.faults.omissions import omitted
+from cadplants.presets.authoring_systems import SYSTEMS, draw_system
+from cadplants.presets.preset import PRESETS
+from cadplants.truth.truth_writer import truth_of
 
 MARKS = (0, 5, 10, 20, 40, 60, 100)
 WRONG = 0.05  # share of the parts whose labels are made wrong

@@ -38,8 +38,8 @@ print(source.n_meshes, source.n_triangles)
 _FINE = """
 import sys
 from dataclasses import replace
-from cadplants.field import make_field
-from cadplants.modeling_style import STYLES
+from cadplants.presets.field import make_field
+from cadplants.styles.modeling_style import STYLES
 from cadplants.writers import write_plant
 write_plant(make_field(0, replace(STYLES["plant-design"], sag=0.000015, sides=(44, 176))), sys.argv[1])
 """

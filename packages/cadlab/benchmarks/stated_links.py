@@ -32,7 +32,7 @@ from cadgraph.query.compare_source import compare_source
 from cadlab.evaluate.evaluation import evaluate
 from cadlab.markdown import put, table
 from cadplants import PRESETS, STYLES, Defects, Plant, make
-from cadplants.truth_writer import truth_of
+from cadplants.truth.truth_writer import truth_of
 
 PAGE = Path(__file__).parents[3] / "docs" / "functional.md"
 WRONG, MISSING = 0.1, 0.1

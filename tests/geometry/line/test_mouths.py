@@ -33,8 +33,8 @@ from cadgraph.geometry.line.part_lines import lines_of_parts
 from cadgraph.model.scene import Scene
 from cadgraph.model.shapes import Disc
 from cadplants import STYLES
-from cadplants.piping import tee
-from cadplants.standards import PIPES, TEE_CENTER_TO_END
+from cadplants.model.standards import PIPES, TEE_CENTER_TO_END
+from cadplants.parts.piping import tee
 from fittings import CAPS, MESHERS, Fitting, Outlet, X
 
 NAN = float("nan")

@@ -15,7 +15,7 @@ from cadgraph.model.truth import Truth
 from cadgraph.model.vocabulary import default_vocabulary
 from cadlab.evaluate import evaluate, evaluate_files, to_json
 from cadplants import make_skid, write_usd
-from cadplants.truth_writer import truth_of
+from cadplants.truth.truth_writer import truth_of
 from lab.evaluate.plants import agreeing, changed, line, made_of, relabelled
 
 

@@ -10,10 +10,10 @@ from cadgraph.labelers.embedded.model import STRANGE
 from cadlab.training.figure import Answers, least_confidence, score
 from cadlab.training.real import read_real_parts, read_real_plants, side_by_side
 from cadlab.training.samples import Sample, held_out_lessons, training_samples
-from cadplants.authoring_systems import SYSTEMS
-from cadplants.preset import make
-from cadplants.single_device import make_device
-from cadplants.usd import write_usd
+from cadplants.presets.authoring_systems import SYSTEMS
+from cadplants.presets.preset import make
+from cadplants.presets.single_device import make_device
+from cadplants.writers.usd import write_usd
 
 
 def answers(truth, name, confidence):

@@ -1,7 +1,7 @@
 import numpy as np
 
 from cadlab.training.samples import Sample
-from cadplants.authoring_systems import make_in_system
+from cadplants.presets.authoring_systems import make_in_system
 
 
 def test_a_sample_with_a_system_is_a_plant_of_that_system():

@@ -5,7 +5,7 @@ from scipy.spatial import KDTree
 from cadlab.training.distractors import UNSEEN, UNSEEN_FROM, make_distractors, visited
 from cadlab.training.oddities import ODDITIES
 from cadlab.training.samples import Sample, held_out_lessons, training_samples
-from cadplants.assortment import make_assortment
+from cadplants.presets.assortment import make_assortment
 from plants.solids import is_closed, shell_volumes
 
 

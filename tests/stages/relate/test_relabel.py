@@ -14,7 +14,7 @@ from cadgraph.pipeline import analyse
 from cadgraph.stages.relate import RelateInput, connect_units
 from cadgraph.stages.relate.role import USERS
 from cadplants import make
-from cadplants.defects import DEFECTS
+from cadplants.faults.defects import DEFECTS
 from piping import PIPE, STEEL, VALVE, bend, pipe
 from sketch import VOCABULARY, Sketch, around, block
 

@@ -14,8 +14,8 @@ from cadgraph.stages.relate.body_shape import line_through, surface_about
 from cadgraph.stages.relate.kind import name_kinds
 from cadgraph.stages.relate.operator_shape import standing_on
 from cadgraph.stages.relate.valve_kind import SURE_FROM, valve_kinds
-from cadplants.modeling_style import STYLES
-from cadplants.valve import VALVES
+from cadplants.parts.valve import VALVES
+from cadplants.styles.modeling_style import STYLES
 from flows import network, opening, parts_of
 from piping import merged, turned
 

@@ -5,19 +5,19 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from cadplants.defects import Defects, degrade, draw_defects
-    from cadplants.matching import match, truth_for
-    from cadplants.modeling_style import STYLES, ModelingStyle
-    from cadplants.plant import Component, Plant
-    from cadplants.preset import PRESETS, make
-    from cadplants.riser import make_riser
-    from cadplants.skid import make_skid
-    from cadplants.tank import make_tank
-    from cadplants.usd import truth_path, write_usd
-    from cadplants.usd_style import UsdStyle, draw_style
+    from cadplants.faults.defects import Defects, degrade, draw_defects
+    from cadplants.model.plant import Component, Plant
+    from cadplants.presets.preset import PRESETS, make
+    from cadplants.presets.riser import make_riser
+    from cadplants.presets.skid import make_skid
+    from cadplants.presets.tank import make_tank
+    from cadplants.styles.modeling_style import STYLES, ModelingStyle
     from cadplants.writers import write_plant
+    from cadplants.writers.matching import match, truth_for
     from cadplants.writers.metadata import Metadata
     from cadplants.writers.plant_file import FileStyle
+    from cadplants.writers.usd import truth_path, write_usd
+    from cadplants.writers.usd_style import UsdStyle, draw_style
 
 __version__ = "0.1.0"
 
@@ -47,27 +47,27 @@ __all__ = [
 
 # The families of devices are many modules; a command line that only lists this package's commands needs none of them.
 _LATER = {
-    "Component": "cadplants.plant",
-    "Defects": "cadplants.defects",
+    "Component": "cadplants.model.plant",
+    "Defects": "cadplants.faults.defects",
     "FileStyle": "cadplants.writers.plant_file",
     "Metadata": "cadplants.writers.metadata",
-    "ModelingStyle": "cadplants.modeling_style",
-    "PRESETS": "cadplants.preset",
-    "Plant": "cadplants.plant",
-    "STYLES": "cadplants.modeling_style",
-    "UsdStyle": "cadplants.usd_style",
-    "degrade": "cadplants.defects",
-    "draw_defects": "cadplants.defects",
-    "draw_style": "cadplants.usd_style",
-    "make": "cadplants.preset",
-    "make_riser": "cadplants.riser",
-    "make_skid": "cadplants.skid",
-    "make_tank": "cadplants.tank",
-    "match": "cadplants.matching",
-    "truth_for": "cadplants.matching",
-    "truth_path": "cadplants.usd",
+    "ModelingStyle": "cadplants.styles.modeling_style",
+    "PRESETS": "cadplants.presets.preset",
+    "Plant": "cadplants.model.plant",
+    "STYLES": "cadplants.styles.modeling_style",
+    "UsdStyle": "cadplants.writers.usd_style",
+    "degrade": "cadplants.faults.defects",
+    "draw_defects": "cadplants.faults.defects",
+    "draw_style": "cadplants.writers.usd_style",
+    "make": "cadplants.presets.preset",
+    "make_riser": "cadplants.presets.riser",
+    "make_skid": "cadplants.presets.skid",
+    "make_tank": "cadplants.presets.tank",
+    "match": "cadplants.writers.matching",
+    "truth_for": "cadplants.writers.matching",
+    "truth_path": "cadplants.writers.usd",
     "write_plant": "cadplants.writers",
-    "write_usd": "cadplants.usd",
+    "write_usd": "cadplants.writers.usd",
 }
 _OLD = {"HANDS": "STYLES", "Hand": "ModelingStyle", "Sins": "Defects", "draw_sins": "draw_defects", "spoil": "degrade"}
 

@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     from cadgraph.config import LoadConfig
     from cadgraph.model.truth import Truth
     from cadplants.builder.device import Device
-    from cadplants.defects import Defects
-    from cadplants.family import Family
+    from cadplants.faults.defects import Defects
+    from cadplants.model.family import Family
     from cadplants.writers.plant_file import FileStyle
 
 __all__ = ["plants"]
@@ -134,7 +134,7 @@ def _file_style(given: dict[str, Any], told: dict[str, Any]) -> FileStyle:
 
 def _asked_for(drawn: str | None, defective: float) -> Defects | None:
     """The defects of a name and of a share of all meshes; None where neither is given."""
-    from cadplants.defects import DEFECTS, Defects
+    from cadplants.faults.defects import DEFECTS, Defects
 
     if drawn is not None and drawn not in DEFECTS:
         raise ValueError(f"--drawn {drawn}: give one of {', '.join(DEFECTS)}")
@@ -162,7 +162,7 @@ def make_device_file(
     style: Annotated[str, typer.Option(help="In whose style it is modelled.")] = "plant-design",
 ) -> None:
     """Generate one device, or without --output say which parameters it has and what they can be."""
-    from cadplants.single_device import draw_parameters, family_called, make_device
+    from cadplants.presets.single_device import draw_parameters, family_called, make_device
     from cadplants.writers import write_plant
 
     told = {}
@@ -194,7 +194,7 @@ def list_devices(
     kind: Annotated[str, typer.Argument(metavar="[KIND]", help="Only those of a kind, e.g. valve, pump.")] = "",
 ) -> None:
     """List the families of devices, with their places and sizes."""
-    from cadplants.taste import ALL_FAMILIES
+    from cadplants.presets.taste import ALL_FAMILIES
 
     some = [family for name, family in sorted(ALL_FAMILIES.items()) if kind.lower() in name]
     if not some:
@@ -215,7 +215,7 @@ def check_plant(
     from cadgraph.load import load
     from cadgraph.model.truth import Truth
     from cadplants import truth_path
-    from cadplants.truth_check import prove
+    from cadplants.truth.truth_check import prove
 
     proof = prove(load(scene), Truth.load(truth or truth_path(scene)))
     out.print(f"checked {', '.join(f'{n:,} {code}' for code, n in proof.n_checked.items())}")
@@ -238,7 +238,7 @@ def match_truth(
     from cadgraph.load import load
     from cadgraph.model.truth import Truth
     from cadplants import truth_path
-    from cadplants.matching import match, truth_for
+    from cadplants.writers.matching import match, truth_for
 
     known = Truth.load(truth or truth_path(scene))
     read = load(scene, _as_written(known))
@@ -266,7 +266,7 @@ def truth_of(
 ) -> None:
     """Read the labels of a USD file into a truth file."""
     from cadgraph.model.vocabulary import read_vocabulary
-    from cadplants.labelled_usd import truth_from_usd
+    from cadplants.writers.labelled_usd import truth_from_usd
 
     truth = truth_from_usd(scene, read_vocabulary(vocabulary) if vocabulary else None)
     truth.save(output)

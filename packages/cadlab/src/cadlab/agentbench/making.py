@@ -21,8 +21,8 @@ from cadlab.agentbench.facts import Facts, facts_of_truth
 from cadlab.agentbench.oracle import Oracle
 from cadlab.agentbench.question_file import PlantRow, QuestionSet, write_questions, write_set
 from cadlab.agentbench.questions import Question, draw, rounded
-from cadplants.preset import PRESETS, make
-from cadplants.truth_writer import truth_of
+from cadplants.presets.preset import PRESETS, make
+from cadplants.truth.truth_writer import truth_of
 
 __all__ = ["DEFAULT_PRESETS", "LABELS", "Labels", "isolations_of", "make_set", "questions_about"]
 

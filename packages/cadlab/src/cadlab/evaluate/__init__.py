@@ -5,7 +5,7 @@ from cadlab.evaluate.figures import figures
 from cadlab.evaluate.files import evaluate_files
 from cadlab.evaluate.plain import to_json
 from cadlab.evaluate.tables import to_markdown
-from cadplants.labelled_usd import truth_from_usd
+from cadplants.writers.labelled_usd import truth_from_usd
 
 __all__ = [
     "Evaluation",

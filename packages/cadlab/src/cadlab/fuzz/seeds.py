@@ -17,10 +17,10 @@ import numpy as np
 
 from cadlab.fuzz.texts import TEXTS
 from cadplants import Plant, UsdStyle, truth_path, write_plant
-from cadplants.mesh_ops import tube
-from cadplants.plant import Component, Connection, Line, Point, Unit
-from cadplants.primitives import along, cylinder, ring
-from cadplants.transforms import arc, at
+from cadplants.model.plant import Component, Connection, Line, Point, Unit
+from cadplants.solids.mesh_ops import tube
+from cadplants.solids.primitives import along, cylinder, ring
+from cadplants.solids.transforms import arc, at
 
 __all__ = ["write_seeds"]
 

@@ -14,7 +14,7 @@ from cadgraph.model.truth import Truth
 from cadgraph.pipeline import build
 from cadlab.evaluate import Evaluation, evaluate
 from cadplants import Plant
-from cadplants.truth_writer import truth_of
+from cadplants.truth.truth_writer import truth_of
 
 __all__ = ["LABELINGS", "METHODS", "Labeling", "Subject", "Trial", "subject_of", "try_out"]
 

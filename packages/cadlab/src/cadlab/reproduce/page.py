@@ -177,7 +177,7 @@ def _errors(findings: Findings, pictures: Pictures) -> list[str]:
         "",
         "The paper reports two: a continuous pipe split into two clusters, and a platform clustered with a pair of "
         "tanks by a single edge. Its plant can't be had, so two small plants were built on which its method, followed "
-        "to the letter, makes the same errors (`cadplants.trap`).",
+        "to the letter, makes the same errors (`cadplants.presets.trap`).",
         "",
         *table(("plant", "true clusters", "paper mode", "exact mode"), rows),
         "",

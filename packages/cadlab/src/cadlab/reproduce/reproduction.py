@@ -18,7 +18,7 @@ from cadlab.reproduce.paper import STRUCTURES
 from cadlab.reproduce.pictures import draw_trial, save_picture, side_by_side
 from cadlab.reproduce.pie import distribution, draw_pies
 from cadplants import make
-from cadplants.trap import make_bent_pipe, make_platform_and_tanks
+from cadplants.presets.trap import make_bent_pipe, make_platform_and_tanks
 
 __all__ = ["reproduce"]
 

@@ -15,7 +15,7 @@ from cadlab.training.course import Course, run_course, source_digest
 from cadlab.training.page import write_page
 from cadlab.training.real import read_real_parts, read_real_plants
 from cadlab.training.sheet import draw_mistakes
-from cadplants.taste import ALL_FAMILIES
+from cadplants.presets.taste import ALL_FAMILIES
 
 _MODEL = Path(embedded.__file__).with_name("model.npz")
 """The model that the labeler reads; ``make train`` writes it anew in place."""

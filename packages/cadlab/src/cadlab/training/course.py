@@ -27,9 +27,9 @@ from cadlab.training.fit import Recipe, fit
 from cadlab.training.fit import __file__ as fit_file
 from cadlab.training.real import RealPart, RealPlant, side_by_side
 from cadlab.training.samples import TRIED_FROM, Sample, build_samples, held_out_lessons, training_samples
-from cadplants.authoring_systems import SYSTEMS
-from cadplants.preset import make
-from cadplants.taste import ALL_FAMILIES
+from cadplants.presets.authoring_systems import SYSTEMS
+from cadplants.presets.preset import make
+from cadplants.presets.taste import ALL_FAMILIES
 
 __all__ = ["ALONE", "PRECISION", "SURE", "Course", "Trials", "run_course"]
 

@@ -13,7 +13,7 @@ from cadgraph.labelers.embedded.features import observe
 from cadgraph.model.parts import Contacts, Parts
 from cadgraph.model.scene import Floats, Ints, Scene
 from cadgraph.pipeline import analyse
-from cadplants.plant import Plant
+from cadplants.model.plant import Plant
 
 __all__ = ["Example", "make_example", "make_parts_from", "read_examples", "write_examples"]
 

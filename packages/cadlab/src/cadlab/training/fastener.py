@@ -7,10 +7,10 @@ from collections.abc import Callable
 import numpy as np
 
 from cadgraph.model.scene import Floats
-from cadplants.mesh_ops import Solid, extrude, merge, moved, revolve, sweep, weld
-from cadplants.plant import Component, Plant
-from cadplants.polygon import circle
-from cadplants.transforms import at, spun
+from cadplants.model.plant import Component, Plant
+from cadplants.solids.mesh_ops import Solid, extrude, merge, moved, revolve, sweep, weld
+from cadplants.solids.polygon import circle
+from cadplants.solids.transforms import at, spun
 
 __all__ = ["make_fasteners"]
 

@@ -7,10 +7,10 @@ from collections.abc import Callable
 import numpy as np
 
 from cadgraph.model.scene import Floats
-from cadplants.mesh_ops import Solid, extrude, merge, moved
-from cadplants.polygon import circle, rounded_rectangle, section_i
-from cadplants.primitives import along, around, ball, box, cylinder, lofted, ring, rod, rope, torus, turned
-from cadplants.transforms import at, spun
+from cadplants.solids.mesh_ops import Solid, extrude, merge, moved
+from cadplants.solids.polygon import circle, rounded_rectangle, section_i
+from cadplants.solids.primitives import along, around, ball, box, cylinder, lofted, ring, rod, rope, torus, turned
+from cadplants.solids.transforms import at, spun
 
 __all__ = ["ODDITIES"]
 

@@ -14,15 +14,15 @@ import numpy as np
 from cadlab.training.distractors import UNSEEN_FROM, make_distractors, visited
 from cadlab.training.example import Example, make_example, read_examples, write_examples
 from cadlab.training.fastener import make_fasteners
-from cadplants.assortment import FAMILIES, make_assortment
-from cadplants.authoring_systems import SYSTEMS, draw_system, make_in_system
-from cadplants.defects import DEFECTS, Defects, degrade
-from cadplants.drawn_styles import draw_modeling_style
-from cadplants.modeling_style import STYLES, ModelingStyle
-from cadplants.omissions import omitted
-from cadplants.plant import Plant
-from cadplants.preset import PRESETS, make
-from cadplants.transforms import spun
+from cadplants.faults.defects import DEFECTS, Defects, degrade
+from cadplants.faults.omissions import omitted
+from cadplants.model.plant import Plant
+from cadplants.presets.assortment import FAMILIES, make_assortment
+from cadplants.presets.authoring_systems import SYSTEMS, draw_system, make_in_system
+from cadplants.presets.preset import PRESETS, make
+from cadplants.solids.transforms import spun
+from cadplants.styles.drawn_styles import draw_modeling_style
+from cadplants.styles.modeling_style import STYLES, ModelingStyle
 
 __all__ = ["SINS", "Sample", "build_samples", "held_out_lessons", "training_samples"]
 

@@ -9,9 +9,9 @@ import numpy as np
 
 from cadplants.builder.params import Apart, OneStream, Params, Source, given
 from cadplants.builder.table import Table
-from cadplants.family import Family, Model
-from cadplants.modeling_style import ModelingStyle
-from cadplants.standards import SIZES
+from cadplants.model.family import Family, Model
+from cadplants.model.standards import SIZES
+from cadplants.styles.modeling_style import ModelingStyle
 
 __all__ = ["Device", "Maker", "families_of"]
 

@@ -11,12 +11,12 @@ import numpy as np
 
 from cadplants.builder.params import Params, among, between, chance, nested, weighted, whole
 from cadplants.builder.table import Table, outline
-from cadplants.mesh_ops import Solid, extrude, merge, moved
-from cadplants.modeling_style import ModelingStyle
-from cadplants.plant import Turning
-from cadplants.polygon import rounded_rectangle
-from cadplants.primitives import along, around, box, cylinder, dome, hexagon, rope, turned
-from cadplants.transforms import at, spun
+from cadplants.model.plant import Turning
+from cadplants.solids.mesh_ops import Solid, extrude, merge, moved
+from cadplants.solids.polygon import rounded_rectangle
+from cadplants.solids.primitives import along, around, box, cylinder, dome, hexagon, rope, turned
+from cadplants.solids.transforms import at, spun
+from cadplants.styles.modeling_style import ModelingStyle
 
 __all__ = [
     "CASE", "CASES", "STEM", "Dial", "DialFace", "Gland", "Housing", "Indicator", "Needle", "Shank", "StandingGauge",

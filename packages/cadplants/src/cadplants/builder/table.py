@@ -9,13 +9,13 @@ from typing import Any
 
 from cadgraph.model.scene import Floats
 from cadgraph.model.vocabulary import default_vocabulary
-from cadplants.family import Model, Part, Port, placed
-from cadplants.mesh_ops import Solid, merge
-from cadplants.modeling_style import ModelingStyle
-from cadplants.plant import Turning
-from cadplants.primitives import AXES
-from cadplants.standards import FLANGES, PIPES, Flange, Pipe
-from cadplants.transforms import IDENTITY, at, spun
+from cadplants.model.family import Model, Part, Port, placed
+from cadplants.model.plant import Turning
+from cadplants.model.standards import FLANGES, PIPES, Flange, Pipe
+from cadplants.solids.mesh_ops import Solid, merge
+from cadplants.solids.primitives import AXES
+from cadplants.solids.transforms import IDENTITY, at, spun
+from cadplants.styles.modeling_style import ModelingStyle
 
 __all__ = ["Table", "outline"]
 

@@ -20,7 +20,7 @@ from cadplants.families.valves.valve import VALVE_FAMILIES
 from cadplants.families.vessels.equipment import EQUIPMENT
 from cadplants.families.vessels.kinds import KINDS_OF_VESSELS
 from cadplants.families.vessels.vessel import VESSELS
-from cadplants.family import Family
+from cadplants.model.family import Family
 
 __all__ = ["FAMILIES"]
 

@@ -7,23 +7,23 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from cadplants.access import platform, railing, stairs
 from cadplants.builder.device import Device, families_of
 from cadplants.builder.params import among, between, whole
-from cadplants.electrical import cabinet, cable_tray, lamp, sign
-from cadplants.enclosure import fence, pillar
-from cadplants.family import UNIT, Family
-from cadplants.gauge import pressure_gauge
-from cadplants.meter import flow_meter, strainer
-from cadplants.modeling_style import ModelingStyle
-from cadplants.piping import reducer, tee
-from cadplants.plant import Assembly
-from cadplants.plant import Device as InLine
-from cadplants.pump import pump
-from cadplants.standards import FACE_TO_FACE, SIZES
-from cadplants.structure import column, post
-from cadplants.valve import VALVES
-from cadplants.vessel import Nozzle, tank
+from cadplants.model.family import UNIT, Family
+from cadplants.model.plant import Assembly
+from cadplants.model.plant import Device as InLine
+from cadplants.model.standards import FACE_TO_FACE, SIZES
+from cadplants.parts.access import platform, railing, stairs
+from cadplants.parts.electrical import cabinet, cable_tray, lamp, sign
+from cadplants.parts.enclosure import fence, pillar
+from cadplants.parts.gauge import pressure_gauge
+from cadplants.parts.meter import flow_meter, strainer
+from cadplants.parts.piping import reducer, tee
+from cadplants.parts.pump import pump
+from cadplants.parts.structure import column, post
+from cadplants.parts.valve import VALVES
+from cadplants.parts.vessel import Nozzle, tank
+from cadplants.styles.modeling_style import ModelingStyle
 
 __all__ = ["KNOWN"]
 

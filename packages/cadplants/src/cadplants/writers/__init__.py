@@ -1,7 +1,7 @@
 """Plants in the formats of other authoring systems, each with its truth beside it: one module for each format.
 
 Names in a file may be read in more than one way, so the truth of these formats also has where each mesh lies; see
-``cadplants.matching``.
+``cadplants.writers.matching``.
 """
 
 from __future__ import annotations
@@ -17,12 +17,12 @@ import numpy as np
 
 from cadgraph._io.atomic import replacing, write_atomically
 from cadgraph.errors import MissingExtra
-from cadplants.usd import truth_path, write_usd
-from cadplants.usd_style import UsdStyle
+from cadplants.writers.usd import truth_path, write_usd
+from cadplants.writers.usd_style import UsdStyle
 
 if TYPE_CHECKING:
     from cadgraph.model.scene import Floats
-    from cadplants.plant import Component, Plant
+    from cadplants.model.plant import Component, Plant
     from cadplants.writers.plant_file import FileStyle, Written
 
 __all__ = ["FORMATS", "PlantFormat", "format_of", "write_plant"]
@@ -135,7 +135,7 @@ def write_plant(
 
 def _truth(plant: Plant, written: Written, form: str) -> dict[str, Any]:
     """The truth of a plant with the place of each mesh."""
-    from cadplants.truth_writer import truth_of
+    from cadplants.truth.truth_writer import truth_of
 
     truth = truth_of(plant, written.paths)
     for index, (row, component) in enumerate(zip(truth["meshes"], plant.components, strict=True)):
@@ -151,7 +151,7 @@ def _truth(plant: Plant, written: Written, form: str) -> dict[str, Any]:
 
 def _placed(component: Component, box: Floats | None) -> dict[str, Any]:
     """Where a mesh lies [m]: its box, its surface's centre, and the boxes of its pieces where it has several."""
-    from cadplants.mesh_ops import Solid, moved
+    from cadplants.solids.mesh_ops import Solid, moved
     from cadplants.writers.placing import centroid, shells
 
     vertices = component.vertices

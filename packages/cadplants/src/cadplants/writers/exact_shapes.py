@@ -14,7 +14,7 @@ import numpy as np
 
 from cadgraph.geometry.mesh.merge import weld_points
 from cadgraph.model.scene import Floats
-from cadplants.mesh_ops import Solid, volume
+from cadplants.solids.mesh_ops import Solid, volume
 
 __all__ = ["Kind", "Primitive", "fit", "surface"]
 

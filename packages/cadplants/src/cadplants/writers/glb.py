@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from cadgraph.model.scene import Floats
-from cadplants.plant import RGB, Plant
+from cadplants.model.plant import RGB, Plant
 from cadplants.writers.placing import Frame, place
 from cadplants.writers.plant_file import FileStyle, Written
 

@@ -11,7 +11,7 @@ import ifcopenshell.guid
 import numpy as np
 
 from cadgraph.model.scene import Floats
-from cadplants.plant import RGB, Plant
+from cadplants.model.plant import RGB, Plant
 from cadplants.writers.ifc_classes import PROXY, ifc_class
 from cadplants.writers.inventory import Inventory, Item, take
 from cadplants.writers.metadata import Claim, Claims, claim

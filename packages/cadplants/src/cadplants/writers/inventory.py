@@ -10,7 +10,7 @@ from itertools import pairwise
 import numpy as np
 
 from cadgraph.model.scene import Floats
-from cadplants.plant import Plant, Unit
+from cadplants.model.plant import Plant, Unit
 
 __all__ = ["Inventory", "Item", "Joint", "take"]
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cadplants.plant import Plant
+from cadplants.model.plant import Plant
 from cadplants.writers.inventory import Inventory, Item
 
 __all__ = ["Claim", "Claims", "Metadata", "claim"]

@@ -9,8 +9,8 @@ import numpy as np
 from cadgraph.geometry.components import first_of_component
 from cadgraph.geometry.mesh.merge import weld_points
 from cadgraph.model.scene import Faces, Floats
-from cadplants.mesh_ops import Solid, moved
-from cadplants.plant import Plant
+from cadplants.model.plant import Plant
+from cadplants.solids.mesh_ops import Solid, moved
 
 __all__ = ["Frame", "Placed", "centroid", "is_closed", "place", "shells"]
 

@@ -11,8 +11,8 @@ import re
 import numpy as np
 
 from cadgraph.model.scene import Floats
-from cadplants.mesh_ops import Solid, merge
-from cadplants.plant import RGB, Plant
+from cadplants.model.plant import RGB, Plant
+from cadplants.solids.mesh_ops import Solid, merge
 from cadplants.writers.exact_shapes import Primitive, fit, surface
 from cadplants.writers.inventory import take
 from cadplants.writers.metadata import claim

@@ -9,8 +9,8 @@ from __future__ import annotations
 import numpy as np
 
 from cadgraph.model.scene import Floats
-from cadplants.mesh_ops import Solid
-from cadplants.tessellate import facets
+from cadplants.solids.mesh_ops import Solid
+from cadplants.solids.tessellate import facets
 from cadplants.writers.exact_shapes import Primitive, surface
 
 __all__ = ["RvmFile", "facet_group", "primitive"]

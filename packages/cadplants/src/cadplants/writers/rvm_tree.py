@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from cadgraph.model.scene import Floats
-from cadplants.plant import Plant
+from cadplants.model.plant import Plant
 from cadplants.writers.inventory import Inventory, Item
 from cadplants.writers.metadata import Claim, Claims
 from cadplants.writers.pdms_types import BRANCH_TYPES, pdms_type

@@ -10,9 +10,9 @@ import re
 import numpy as np
 
 from cadgraph.model.scene import Floats
-from cadplants.mesh_ops import Solid
-from cadplants.plant import RGB, Plant
-from cadplants.tessellate import facets
+from cadplants.model.plant import RGB, Plant
+from cadplants.solids.mesh_ops import Solid
+from cadplants.solids.tessellate import facets
 from cadplants.writers.placing import Frame, is_closed, place, shells
 from cadplants.writers.plant_file import FileStyle, Written
 

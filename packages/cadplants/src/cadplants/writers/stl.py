@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from cadplants.plant import Plant
+from cadplants.model.plant import Plant
 from cadplants.writers.placing import Frame, place
 from cadplants.writers.plant_file import FileStyle, Written
 

@@ -12,13 +12,13 @@ from cadplants.families.instruments.flow import NAME, FlowMeter, measuring_tube
 from cadplants.families.instruments.pieces import FRONT, bent, put
 from cadplants.families.valves.threaded import hex_end
 from cadplants.families.valves.valve import bolt_circle, disc_flange
-from cadplants.family import Model, Port
-from cadplants.mesh_ops import Solid, extrude, merge, moved
-from cadplants.polygon import circle, rounded_rectangle
-from cadplants.primitives import along, around, box, cylinder, hexagon, ring, turned
-from cadplants.standards import FLANGES, PIPES, sizes_between
-from cadplants.transforms import at, looking, spun
-from cadplants.valve_body import bore_of
+from cadplants.model.family import Model, Port
+from cadplants.model.standards import FLANGES, PIPES, sizes_between
+from cadplants.parts.valve_body import bore_of
+from cadplants.solids.mesh_ops import Solid, extrude, merge, moved
+from cadplants.solids.polygon import circle, rounded_rectangle
+from cadplants.solids.primitives import along, around, box, cylinder, hexagon, ring, turned
+from cadplants.solids.transforms import at, looking, spun
 
 __all__ = ["COUNTER_BUILDS"]
 

@@ -14,15 +14,15 @@ from cadplants.builder.table import Table, outline
 from cadplants.families.instruments.pieces import Gauge, bent, put, t_handle
 from cadplants.families.instruments.pressure import COPLANAR, DifferentialHead
 from cadplants.families.valves.valve import flanged_body
-from cadplants.family import Model
-from cadplants.flange import nut_room, plate_thickness
-from cadplants.mesh_ops import Solid, about_x, extrude, merge, moved
-from cadplants.modeling_style import ModelingStyle
-from cadplants.plant import Turning
-from cadplants.polygon import rounded_rectangle
-from cadplants.primitives import along, box, cylinder, hexagon, ring, rod, turned
-from cadplants.standards import PIPES, SIZES, sizes_between
-from cadplants.transforms import at, spun
+from cadplants.model.family import Model
+from cadplants.model.plant import Turning
+from cadplants.model.standards import PIPES, SIZES, sizes_between
+from cadplants.parts.flange import nut_room, plate_thickness
+from cadplants.solids.mesh_ops import Solid, about_x, extrude, merge, moved
+from cadplants.solids.polygon import rounded_rectangle
+from cadplants.solids.primitives import along, box, cylinder, hexagon, ring, rod, turned
+from cadplants.solids.transforms import at, spun
+from cadplants.styles.modeling_style import ModelingStyle
 
 __all__ = ["FLOW_BUILDS", "NAME", "FlowMeter", "measuring_tube"]
 

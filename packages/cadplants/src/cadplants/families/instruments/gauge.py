@@ -24,14 +24,14 @@ from cadplants.builder.params import among, between, chance, nested, several, wh
 from cadplants.builder.table import Table, outline
 from cadplants.families.instruments.pieces import FRONT, Gauge, put, t_handle
 from cadplants.families.valves.valve import disc_flange
-from cadplants.family import Model
-from cadplants.flange import plate_thickness
-from cadplants.mesh_ops import extrude, moved
-from cadplants.plant import Turning
-from cadplants.polygon import rounded_rectangle
-from cadplants.primitives import along, box, cylinder, dome, hexagon, ring, rod, torus, turned
-from cadplants.standards import PIPES
-from cadplants.transforms import at
+from cadplants.model.family import Model
+from cadplants.model.plant import Turning
+from cadplants.model.standards import PIPES
+from cadplants.parts.flange import plate_thickness
+from cadplants.solids.mesh_ops import extrude, moved
+from cadplants.solids.polygon import rounded_rectangle
+from cadplants.solids.primitives import along, box, cylinder, dome, hexagon, ring, rod, torus, turned
+from cadplants.solids.transforms import at
 
 __all__ = ["GAUGE_BUILDS"]
 

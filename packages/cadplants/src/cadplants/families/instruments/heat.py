@@ -11,14 +11,14 @@ from cadplants.builder.params import Params, among, between, chance, given, nest
 from cadplants.builder.table import Table, outline
 from cadplants.families.instruments.pieces import Board, Gauge, bent, put
 from cadplants.families.valves.valve import bolt_circle, disc_flange
-from cadplants.family import Model
-from cadplants.flange import plate_thickness
-from cadplants.mesh_ops import Solid, extrude, moved
-from cadplants.modeling_style import ModelingStyle
-from cadplants.polygon import circle
-from cadplants.primitives import along, ball, box, cylinder, hexagon, ring, rod, rope, torus, turned
-from cadplants.standards import PIPES, SIZES
-from cadplants.transforms import at, spun
+from cadplants.model.family import Model
+from cadplants.model.standards import PIPES, SIZES
+from cadplants.parts.flange import plate_thickness
+from cadplants.solids.mesh_ops import Solid, extrude, moved
+from cadplants.solids.polygon import circle
+from cadplants.solids.primitives import along, ball, box, cylinder, hexagon, ring, rod, rope, torus, turned
+from cadplants.solids.transforms import at, spun
+from cadplants.styles.modeling_style import ModelingStyle
 
 __all__ = ["HEAT_BUILDS"]
 

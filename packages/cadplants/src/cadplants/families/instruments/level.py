@@ -10,14 +10,14 @@ from cadplants.builder.params import among, between, chance, nested, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.instruments.pieces import FRONT, Gauge, Vessel, put, t_handle
 from cadplants.families.valves.valve import bolt_circle, disc_flange
-from cadplants.family import Model
-from cadplants.flange import plate_thickness
-from cadplants.mesh_ops import Solid, extrude, merge, moved
-from cadplants.modeling_style import ModelingStyle
-from cadplants.polygon import rounded_rectangle
-from cadplants.primitives import along, around, box, cylinder, hexagon, ring, rod, rope, turned
-from cadplants.transforms import at
-from cadplants.valve_body import bore_of
+from cadplants.model.family import Model
+from cadplants.parts.flange import plate_thickness
+from cadplants.parts.valve_body import bore_of
+from cadplants.solids.mesh_ops import Solid, extrude, merge, moved
+from cadplants.solids.polygon import rounded_rectangle
+from cadplants.solids.primitives import along, around, box, cylinder, hexagon, ring, rod, rope, turned
+from cadplants.solids.transforms import at
+from cadplants.styles.modeling_style import ModelingStyle
 
 __all__ = ["LEVEL_BUILDS"]
 

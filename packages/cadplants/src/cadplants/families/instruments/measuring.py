@@ -11,7 +11,7 @@ from cadplants.families.instruments.panel import PANEL_BUILDS
 from cadplants.families.instruments.pressure import PRESSURE_BUILDS
 from cadplants.families.instruments.sight import SIGHT_BUILDS
 from cadplants.families.instruments.siphons import SIPHONS
-from cadplants.family import Family
+from cadplants.model.family import Family
 
 __all__ = ["MEASURING"]
 

@@ -12,14 +12,14 @@ from cadplants.builder.params import Params, among, between, chance, given, nest
 from cadplants.builder.table import Table
 from cadplants.families.instruments.pieces import FRONT, Board, Gauge, Stand, bent, put, t_handle
 from cadplants.families.valves.valve import bolt_circle, disc_flange
-from cadplants.family import Model
-from cadplants.flange import plate_thickness
-from cadplants.mesh_ops import extrude, moved, sweep
-from cadplants.plant import Turning
-from cadplants.polygon import circle, rounded_rectangle
-from cadplants.primitives import along, box, cylinder, hexagon, ring, rod, rope
-from cadplants.standards import PIPES
-from cadplants.transforms import at, spun
+from cadplants.model.family import Model
+from cadplants.model.plant import Turning
+from cadplants.model.standards import PIPES
+from cadplants.parts.flange import plate_thickness
+from cadplants.solids.mesh_ops import extrude, moved, sweep
+from cadplants.solids.polygon import circle, rounded_rectangle
+from cadplants.solids.primitives import along, box, cylinder, hexagon, ring, rod, rope
+from cadplants.solids.transforms import at, spun
 
 __all__ = ["PANEL_BUILDS"]
 

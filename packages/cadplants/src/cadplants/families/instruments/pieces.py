@@ -14,12 +14,12 @@ from cadplants.builder.dials import (
 from cadplants.builder.params import Params, among, between, chance
 from cadplants.builder.table import Table, outline
 from cadplants.families.valves.valve import bolt_circle, disc_flange
-from cadplants.flange import plate_thickness
-from cadplants.mesh_ops import Solid, extrude, merge
-from cadplants.modeling_style import ModelingStyle
-from cadplants.polygon import rounded_rectangle
-from cadplants.primitives import box, cylinder, dome, hexagon, ring, rod, rope, turned
-from cadplants.standards import FLANGES, PIPES
+from cadplants.model.standards import FLANGES, PIPES
+from cadplants.parts.flange import plate_thickness
+from cadplants.solids.mesh_ops import Solid, extrude, merge
+from cadplants.solids.polygon import rounded_rectangle
+from cadplants.solids.primitives import box, cylinder, dome, hexagon, ring, rod, rope, turned
+from cadplants.styles.modeling_style import ModelingStyle
 
 __all__ = ["FRONT", "Board", "Gauge", "Stand", "Vessel", "bent", "put", "t_handle"]
 

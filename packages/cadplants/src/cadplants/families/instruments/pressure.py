@@ -13,15 +13,15 @@ from cadplants.families.instruments.pieces import FRONT, Gauge, Stand, bent, put
 from cadplants.families.instruments.sight import SIGHT_GLASS, SightGlass
 from cadplants.families.valves.threaded import hex_end
 from cadplants.families.valves.valve import bolt_circle, disc_flange, flanged_body
-from cadplants.family import Model
-from cadplants.flange import plate_thickness
-from cadplants.mesh_ops import Solid, extrude, merge, moved
-from cadplants.plant import Turning
-from cadplants.polygon import circle, rounded_rectangle
-from cadplants.primitives import along, around, box, cylinder, dome, hexagon, ring, rod, rope, turned
-from cadplants.standards import sizes_between
-from cadplants.transforms import at, spun
-from cadplants.valve_body import bore_of
+from cadplants.model.family import Model
+from cadplants.model.plant import Turning
+from cadplants.model.standards import sizes_between
+from cadplants.parts.flange import plate_thickness
+from cadplants.parts.valve_body import bore_of
+from cadplants.solids.mesh_ops import Solid, extrude, merge, moved
+from cadplants.solids.polygon import circle, rounded_rectangle
+from cadplants.solids.primitives import along, around, box, cylinder, dome, hexagon, ring, rod, rope, turned
+from cadplants.solids.transforms import at, spun
 
 __all__ = ["COPLANAR", "NAME", "PRESSURE_BUILDS", "DifferentialHead"]
 

@@ -11,13 +11,13 @@ from cadplants.builder.params import Params, among, between, chance, several, wh
 from cadplants.builder.table import Table, outline
 from cadplants.families.instruments.pieces import FRONT
 from cadplants.families.valves.valve import bolt_circle, disc_flange
-from cadplants.family import Model
-from cadplants.flange import plate_thickness
-from cadplants.mesh_ops import merge, moved
-from cadplants.primitives import along, around, box, cylinder, dome, hexagon, ring, rod, turned
-from cadplants.standards import PIPES, sizes_between
-from cadplants.transforms import at, spun
-from cadplants.valve_body import bore_of
+from cadplants.model.family import Model
+from cadplants.model.standards import PIPES, sizes_between
+from cadplants.parts.flange import plate_thickness
+from cadplants.parts.valve_body import bore_of
+from cadplants.solids.mesh_ops import merge, moved
+from cadplants.solids.primitives import along, around, box, cylinder, dome, hexagon, ring, rod, turned
+from cadplants.solids.transforms import at, spun
 
 __all__ = ["SIGHT_BUILDS", "SIGHT_GLASS", "SightGlass"]
 

@@ -12,10 +12,10 @@ from cadplants.builder.dials import STEM, Housing, Indicator, Shank, StandingGau
 from cadplants.builder.params import Params, among, between, chance, nested, weighted, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.instruments.pieces import bent, t_handle
-from cadplants.family import Model
-from cadplants.mesh_ops import Solid, merge, moved
-from cadplants.primitives import along, around, box, cylinder, hexagon, rope, turned
-from cadplants.transforms import at
+from cadplants.model.family import Model
+from cadplants.solids.mesh_ops import Solid, merge, moved
+from cadplants.solids.primitives import along, around, box, cylinder, hexagon, rope, turned
+from cadplants.solids.transforms import at
 
 __all__ = ["SIPHONS"]
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from cadplants.families.lookalikes.plates import PLATES_ALIKE
 from cadplants.families.lookalikes.rails import RAILS_ALIKE
 from cadplants.families.lookalikes.spindles import SPINDLES_ALIKE
-from cadplants.family import Family
+from cadplants.model.family import Family
 
 __all__ = ["LOOKALIKES"]
 

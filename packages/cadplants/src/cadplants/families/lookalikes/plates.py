@@ -14,13 +14,13 @@ from cadplants.families.primitive.shape import (
     lying,
     vessel,
 )
-from cadplants.family import Family, Model
-from cadplants.mesh_ops import Solid, extrude, merge, moved
-from cadplants.modeling_style import ModelingStyle
-from cadplants.polygon import circle, rounded_rectangle
-from cadplants.primitives import box, cylinder, hexagon, ring
-from cadplants.standards import FLANGES, PIPES
-from cadplants.transforms import at, spun
+from cadplants.model.family import Family, Model
+from cadplants.model.standards import FLANGES, PIPES
+from cadplants.solids.mesh_ops import Solid, extrude, merge, moved
+from cadplants.solids.polygon import circle, rounded_rectangle
+from cadplants.solids.primitives import box, cylinder, hexagon, ring
+from cadplants.solids.transforms import at, spun
+from cadplants.styles.modeling_style import ModelingStyle
 
 __all__ = ["PLATES_ALIKE"]
 

@@ -16,11 +16,11 @@ from cadplants.families.primitive.shape import (
     disc,
     torus_piece,
 )
-from cadplants.family import Family, Model
-from cadplants.mesh_ops import Solid, moved
-from cadplants.modeling_style import ModelingStyle
-from cadplants.primitives import ball, box
-from cadplants.transforms import arc, at
+from cadplants.model.family import Family, Model
+from cadplants.solids.mesh_ops import Solid, moved
+from cadplants.solids.primitives import ball, box
+from cadplants.solids.transforms import arc, at
+from cadplants.styles.modeling_style import ModelingStyle
 
 __all__ = ["RAILS_ALIKE"]
 

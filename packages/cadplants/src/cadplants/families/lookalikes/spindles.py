@@ -13,12 +13,12 @@ from cadplants.families.primitive.shape import (
     lying,
     spoked,
 )
-from cadplants.family import Family, Model
-from cadplants.mesh_ops import extrude, merge, moved
-from cadplants.polygon import circle
-from cadplants.primitives import BOTH, box, cylinder, hexagon, ring, rod, turned
-from cadplants.standards import sizes_between
-from cadplants.transforms import at, spun
+from cadplants.model.family import Family, Model
+from cadplants.model.standards import sizes_between
+from cadplants.solids.mesh_ops import extrude, merge, moved
+from cadplants.solids.polygon import circle
+from cadplants.solids.primitives import BOTH, box, cylinder, hexagon, ring, rod, turned
+from cadplants.solids.transforms import at, spun
 
 __all__ = ["SPINDLES_ALIKE"]
 

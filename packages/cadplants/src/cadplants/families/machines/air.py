@@ -21,12 +21,12 @@ from cadplants.families.machines.drives import (
     mouth,
     slab,
 )
-from cadplants.family import Model
-from cadplants.mesh_ops import Solid, extrude, merge, moved
-from cadplants.modeling_style import ModelingStyle
-from cadplants.polygon import rounded_rectangle
-from cadplants.primitives import BOTH, along, around, box, cylinder, hexagon, ring, rod, torus, turned
-from cadplants.transforms import at, spun
+from cadplants.model.family import Model
+from cadplants.solids.mesh_ops import Solid, extrude, merge, moved
+from cadplants.solids.polygon import rounded_rectangle
+from cadplants.solids.primitives import BOTH, along, around, box, cylinder, hexagon, ring, rod, torus, turned
+from cadplants.solids.transforms import at, spun
+from cadplants.styles.modeling_style import ModelingStyle
 
 __all__ = ["AIR"]
 

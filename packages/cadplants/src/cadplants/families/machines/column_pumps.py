@@ -23,13 +23,13 @@ from cadplants.families.machines.drives import (
     volute,
 )
 from cadplants.families.valves.valve import disc_flange, flanged_body
-from cadplants.family import Model, Port
-from cadplants.flange import plate_thickness
-from cadplants.mesh_ops import extrude, merge, moved, tube
-from cadplants.polygon import circle, rounded_rectangle
-from cadplants.primitives import BOTH, along, around, box, cylinder, hexagon, ring, rod, rope, torus, turned
-from cadplants.standards import ELBOW_LONG_RADIUS, smaller
-from cadplants.transforms import at, looking, spun
+from cadplants.model.family import Model, Port
+from cadplants.model.standards import ELBOW_LONG_RADIUS, smaller
+from cadplants.parts.flange import plate_thickness
+from cadplants.solids.mesh_ops import extrude, merge, moved, tube
+from cadplants.solids.polygon import circle, rounded_rectangle
+from cadplants.solids.primitives import BOTH, along, around, box, cylinder, hexagon, ring, rod, rope, torus, turned
+from cadplants.solids.transforms import at, looking, spun
 
 __all__ = ["SPECIAL"]
 

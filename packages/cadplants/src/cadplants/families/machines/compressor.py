@@ -19,11 +19,11 @@ from cadplants.families.machines.drives import (
     mouth,
     volute,
 )
-from cadplants.family import Model
-from cadplants.mesh_ops import Solid, extrude, merge, moved
-from cadplants.polygon import rounded_rectangle
-from cadplants.primitives import BOTH, along, around, box, cylinder, dome, hexagon, ring, rope, turned
-from cadplants.transforms import at, spun
+from cadplants.model.family import Model
+from cadplants.solids.mesh_ops import Solid, extrude, merge, moved
+from cadplants.solids.polygon import rounded_rectangle
+from cadplants.solids.primitives import BOTH, along, around, box, cylinder, dome, hexagon, ring, rope, turned
+from cadplants.solids.transforms import at, spun
 
 __all__ = ["COMPRESSORS"]
 

@@ -22,12 +22,26 @@ from cadplants.families.machines.drives import (
     mouth,
 )
 from cadplants.families.valves.valve import bolt_circle
-from cadplants.family import Model, Port
-from cadplants.mesh_ops import Solid, extrude, merge, moved
-from cadplants.polygon import rounded_rectangle
-from cadplants.primitives import BOTH, along, around, ball, box, cylinder, dome, hexagon, ring, rod, rope, torus, turned
-from cadplants.standards import smaller
-from cadplants.transforms import at, spun
+from cadplants.model.family import Model, Port
+from cadplants.model.standards import smaller
+from cadplants.solids.mesh_ops import Solid, extrude, merge, moved
+from cadplants.solids.polygon import rounded_rectangle
+from cadplants.solids.primitives import (
+    BOTH,
+    along,
+    around,
+    ball,
+    box,
+    cylinder,
+    dome,
+    hexagon,
+    ring,
+    rod,
+    rope,
+    torus,
+    turned,
+)
+from cadplants.solids.transforms import at, spun
 
 __all__ = ["DISPLACING"]
 

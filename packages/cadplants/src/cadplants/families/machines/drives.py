@@ -12,13 +12,26 @@ from cadplants.builder.device import Device
 from cadplants.builder.params import P, Params, Source, When, among, between, chance, given, nested, styled
 from cadplants.builder.table import Table, outline
 from cadplants.families.valves.valve import disc_flange
-from cadplants.family import Port
-from cadplants.flange import nut_room, plate_thickness
-from cadplants.mesh_ops import Solid, about_x, extrude, merge, moved
-from cadplants.modeling_style import ModelingStyle
-from cadplants.polygon import rounded_rectangle, section_channel, section_i
-from cadplants.primitives import BOTH, along, around, box, cylinder, hexagon, lofted, ring, rod, rope, torus, turned
-from cadplants.transforms import at, looking, spun
+from cadplants.model.family import Port
+from cadplants.parts.flange import nut_room, plate_thickness
+from cadplants.solids.mesh_ops import Solid, about_x, extrude, merge, moved
+from cadplants.solids.polygon import rounded_rectangle, section_channel, section_i
+from cadplants.solids.primitives import (
+    BOTH,
+    along,
+    around,
+    box,
+    cylinder,
+    hexagon,
+    lofted,
+    ring,
+    rod,
+    rope,
+    torus,
+    turned,
+)
+from cadplants.solids.transforms import at, looking, spun
+from cadplants.styles.modeling_style import ModelingStyle
 
 __all__ = [
     "BASES", "CASING", "GUARDS", "LYING", "MOTORS", "PUMP", "Driven", "Motor", "Pump", "Train",

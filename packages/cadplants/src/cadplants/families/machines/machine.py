@@ -10,7 +10,7 @@ from cadplants.families.machines.fired import FIRED
 from cadplants.families.machines.metering import SMALL
 from cadplants.families.machines.rotary import ROTARY
 from cadplants.families.machines.wheels import WHEELS
-from cadplants.family import Family
+from cadplants.model.family import Family
 
 __all__ = ["MACHINES"]
 

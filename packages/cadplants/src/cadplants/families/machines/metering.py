@@ -10,11 +10,11 @@ from cadplants.builder.device import Device, families_of
 from cadplants.builder.params import Params, Source, among, between, chance, nested, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.machines.drives import CASING, LYING, PUMP, Motor, Pump, corners, dead_room, driven, mouth
-from cadplants.family import Model, Port
-from cadplants.mesh_ops import extrude, merge, moved
-from cadplants.polygon import rounded_rectangle
-from cadplants.primitives import along, around, box, cylinder, hexagon, rope, torus, turned
-from cadplants.transforms import at
+from cadplants.model.family import Model, Port
+from cadplants.solids.mesh_ops import extrude, merge, moved
+from cadplants.solids.polygon import rounded_rectangle
+from cadplants.solids.primitives import along, around, box, cylinder, hexagon, rope, torus, turned
+from cadplants.solids.transforms import at
 
 __all__ = ["SMALL"]
 

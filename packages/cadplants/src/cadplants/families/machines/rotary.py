@@ -22,12 +22,12 @@ from cadplants.families.machines.drives import (
     volute,
 )
 from cadplants.families.valves.valve import bolt_circle, flanged_body
-from cadplants.family import Model
-from cadplants.mesh_ops import extrude, merge, moved
-from cadplants.polygon import rounded_rectangle
-from cadplants.primitives import BOTH, along, around, box, cylinder, hexagon, ring, rod, turned
-from cadplants.standards import FLANGES, PIPES, smaller
-from cadplants.transforms import at, spun
+from cadplants.model.family import Model
+from cadplants.model.standards import FLANGES, PIPES, smaller
+from cadplants.solids.mesh_ops import extrude, merge, moved
+from cadplants.solids.polygon import rounded_rectangle
+from cadplants.solids.primitives import BOTH, along, around, box, cylinder, hexagon, ring, rod, turned
+from cadplants.solids.transforms import at, spun
 
 __all__ = ["ROTARY"]
 

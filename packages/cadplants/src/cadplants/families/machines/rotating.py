@@ -18,14 +18,28 @@ from cadplants.families.machines.drives import (
     driven,
 )
 from cadplants.families.valves.valve import disc_flange, flanged_body
-from cadplants.family import Model, Port
-from cadplants.flange import plate_thickness
-from cadplants.mesh_ops import Solid, about_x, extrude, merge, moved
-from cadplants.polygon import rounded_rectangle, section_channel
-from cadplants.primitives import BOTH, along, around, ball, box, cylinder, dome, hexagon, ring, rod, rope, torus, turned
-from cadplants.standards import smaller
-from cadplants.transforms import at, looking, spun
-from cadplants.valve_body import bore_of
+from cadplants.model.family import Model, Port
+from cadplants.model.standards import smaller
+from cadplants.parts.flange import plate_thickness
+from cadplants.parts.valve_body import bore_of
+from cadplants.solids.mesh_ops import Solid, about_x, extrude, merge, moved
+from cadplants.solids.polygon import rounded_rectangle, section_channel
+from cadplants.solids.primitives import (
+    BOTH,
+    along,
+    around,
+    ball,
+    box,
+    cylinder,
+    dome,
+    hexagon,
+    ring,
+    rod,
+    rope,
+    torus,
+    turned,
+)
+from cadplants.solids.transforms import at, looking, spun
 
 __all__ = ["ROTATING"]
 

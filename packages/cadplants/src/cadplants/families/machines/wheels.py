@@ -14,11 +14,11 @@ from cadplants.families.machines.drives import (
     base,
     slab,
 )
-from cadplants.family import Model
-from cadplants.mesh_ops import Solid, extrude, merge, moved
-from cadplants.modeling_style import ModelingStyle
-from cadplants.primitives import BOTH, along, around, box, cylinder, ring, turned
-from cadplants.transforms import at, spun
+from cadplants.model.family import Model
+from cadplants.solids.mesh_ops import Solid, extrude, merge, moved
+from cadplants.solids.primitives import BOTH, along, around, box, cylinder, ring, turned
+from cadplants.solids.transforms import at, spun
+from cadplants.styles.modeling_style import ModelingStyle
 
 __all__ = ["WHEELS"]
 

@@ -28,13 +28,13 @@ from cadplants.families.piping.shape import (
     sized,
     tails,
 )
-from cadplants.family import Model
-from cadplants.flange import flange, flange_length, plate_thickness
-from cadplants.mesh_ops import merge, moved, tube
-from cadplants.polygon import rounded_rectangle
-from cadplants.primitives import box
-from cadplants.standards import sizes_between
-from cadplants.transforms import at, spun
+from cadplants.model.family import Model
+from cadplants.model.standards import sizes_between
+from cadplants.parts.flange import flange, flange_length, plate_thickness
+from cadplants.solids.mesh_ops import merge, moved, tube
+from cadplants.solids.polygon import rounded_rectangle
+from cadplants.solids.primitives import box
+from cadplants.solids.transforms import at, spun
 
 __all__ = ["SPECIALS"]
 

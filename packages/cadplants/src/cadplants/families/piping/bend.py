@@ -28,14 +28,14 @@ from cadplants.families.piping.shape import (
     sized,
     tails,
 )
-from cadplants.family import Model, Part, placed
-from cadplants.flange import nut_room, plate_thickness
-from cadplants.mesh_ops import Solid, merge, moved, tube
-from cadplants.modeling_style import ModelingStyle
-from cadplants.polygon import circle
-from cadplants.primitives import ball, box, cylinder, lofted
-from cadplants.standards import FLANGES, PIPES, SIZES, sizes_between
-from cadplants.transforms import IDENTITY, at, looking, spun
+from cadplants.model.family import Model, Part, placed
+from cadplants.model.standards import FLANGES, PIPES, SIZES, sizes_between
+from cadplants.parts.flange import nut_room, plate_thickness
+from cadplants.solids.mesh_ops import Solid, merge, moved, tube
+from cadplants.solids.polygon import circle
+from cadplants.solids.primitives import ball, box, cylinder, lofted
+from cadplants.solids.transforms import IDENTITY, at, looking, spun
+from cadplants.styles.modeling_style import ModelingStyle
 
 __all__ = ["BENDS"]
 

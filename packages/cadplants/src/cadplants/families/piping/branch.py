@@ -32,14 +32,14 @@ from cadplants.families.piping.shape import (
     sized,
     tails,
 )
-from cadplants.family import Model
-from cadplants.flange import nut_room, plate_thickness
-from cadplants.mesh_ops import Solid, about_x, extrude, loft, moved, tube, weld
-from cadplants.modeling_style import ModelingStyle
-from cadplants.primitives import BOTH, ball, cylinder, hexagon, rope
-from cadplants.standards import FLANGES, PIPES, SIZES, sizes_between
-from cadplants.transforms import at, spun
-from cadplants.valve_body import bore_of
+from cadplants.model.family import Model
+from cadplants.model.standards import FLANGES, PIPES, SIZES, sizes_between
+from cadplants.parts.flange import nut_room, plate_thickness
+from cadplants.parts.valve_body import bore_of
+from cadplants.solids.mesh_ops import Solid, about_x, extrude, loft, moved, tube, weld
+from cadplants.solids.primitives import BOTH, ball, cylinder, hexagon, rope
+from cadplants.solids.transforms import at, spun
+from cadplants.styles.modeling_style import ModelingStyle
 
 __all__ = ["BRANCHES"]
 

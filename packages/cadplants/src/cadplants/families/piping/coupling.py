@@ -23,13 +23,13 @@ from cadplants.families.piping.shape import (
     prism,
     sized,
 )
-from cadplants.family import Model
-from cadplants.flange import plate_thickness
-from cadplants.mesh_ops import Solid, about_x, extrude, merge, moved
-from cadplants.polygon import circle
-from cadplants.primitives import BOTH, box, cylinder, rod, torus
-from cadplants.standards import SIZES, sizes_between
-from cadplants.transforms import IDENTITY, at, spun
+from cadplants.model.family import Model
+from cadplants.model.standards import SIZES, sizes_between
+from cadplants.parts.flange import plate_thickness
+from cadplants.solids.mesh_ops import Solid, about_x, extrude, merge, moved
+from cadplants.solids.polygon import circle
+from cadplants.solids.primitives import BOTH, box, cylinder, rod, torus
+from cadplants.solids.transforms import IDENTITY, at, spun
 
 __all__ = ["COUPLINGS", "ferrule", "half_band", "hygienic_clamp"]
 

@@ -27,15 +27,15 @@ from cadplants.families.piping.shape import (
 )
 from cadplants.families.valves.threaded import hex_end
 from cadplants.families.valves.valve import bolt_circle, disc_flange, flanged_body
-from cadplants.family import Model
-from cadplants.flange import nut_room, plate_thickness
-from cadplants.mesh_ops import Solid, about_x, extrude, loft, merge, moved, revolve, tube, weld
-from cadplants.piping import cap
-from cadplants.polygon import circle
-from cadplants.primitives import BOTH, along, around, box, cylinder, hexagon, lofted, ring, torus, turned, waves
-from cadplants.standards import FACE_TO_FACE, PIPES, REDUCER_LENGTH, SIZES, TEE_CENTER_TO_END, sizes_between
-from cadplants.transforms import at, spun
-from cadplants.valve_body import bore_of
+from cadplants.model.family import Model
+from cadplants.model.standards import FACE_TO_FACE, PIPES, REDUCER_LENGTH, SIZES, TEE_CENTER_TO_END, sizes_between
+from cadplants.parts.flange import nut_room, plate_thickness
+from cadplants.parts.piping import cap
+from cadplants.parts.valve_body import bore_of
+from cadplants.solids.mesh_ops import Solid, about_x, extrude, loft, merge, moved, revolve, tube, weld
+from cadplants.solids.polygon import circle
+from cadplants.solids.primitives import BOTH, along, around, box, cylinder, hexagon, lofted, ring, torus, turned, waves
+from cadplants.solids.transforms import at, spun
 
 __all__ = ["FITTINGS"]
 

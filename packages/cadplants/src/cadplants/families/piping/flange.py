@@ -26,13 +26,13 @@ from cadplants.families.piping.shape import (
     sized,
     tails,
 )
-from cadplants.family import Model
-from cadplants.flange import flange, flange_length, plate_thickness
-from cadplants.mesh_ops import Solid, merge, moved
-from cadplants.polygon import circle, rounded_rectangle
-from cadplants.primitives import BOTH, box, cylinder, rod, rope, torus
-from cadplants.standards import FLANGES, PIPES, SIZES, sizes_between
-from cadplants.transforms import at, spun
+from cadplants.model.family import Model
+from cadplants.model.standards import FLANGES, PIPES, SIZES, sizes_between
+from cadplants.parts.flange import flange, flange_length, plate_thickness
+from cadplants.solids.mesh_ops import Solid, merge, moved
+from cadplants.solids.polygon import circle, rounded_rectangle
+from cadplants.solids.primitives import BOTH, box, cylinder, rod, rope, torus
+from cadplants.solids.transforms import at, spun
 
 __all__ = ["FLANGINGS"]
 

@@ -21,13 +21,13 @@ from cadplants.families.piping.shape import (
     prism,
     sized,
 )
-from cadplants.family import Model
-from cadplants.flange import plate_thickness
-from cadplants.mesh_ops import Solid, merge, moved
-from cadplants.polygon import circle
-from cadplants.primitives import BOTH, box, torus, waves
-from cadplants.standards import SIZES
-from cadplants.transforms import at, spun
+from cadplants.model.family import Model
+from cadplants.model.standards import SIZES
+from cadplants.parts.flange import plate_thickness
+from cadplants.solids.mesh_ops import Solid, merge, moved
+from cadplants.solids.polygon import circle
+from cadplants.solids.primitives import BOTH, box, torus, waves
+from cadplants.solids.transforms import at, spun
 
 __all__ = ["FLEXIBLES"]
 

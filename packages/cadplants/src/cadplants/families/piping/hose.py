@@ -20,13 +20,13 @@ from cadplants.families.piping.shape import (
     prism,
     sized,
 )
-from cadplants.family import Model
-from cadplants.flange import flange, flange_length
-from cadplants.mesh_ops import Solid, moved
-from cadplants.polygon import circle
-from cadplants.primitives import box, lofted, rod, rope, torus
-from cadplants.standards import SIZES, sizes_between
-from cadplants.transforms import at, spun
+from cadplants.model.family import Model
+from cadplants.model.standards import SIZES, sizes_between
+from cadplants.parts.flange import flange, flange_length
+from cadplants.solids.mesh_ops import Solid, moved
+from cadplants.solids.polygon import circle
+from cadplants.solids.primitives import box, lofted, rod, rope, torus
+from cadplants.solids.transforms import at, spun
 
 __all__ = ["HOSES"]
 

@@ -12,7 +12,7 @@ from cadplants.families.piping.hose import HOSES
 from cadplants.families.piping.reducer import REDUCERS
 from cadplants.families.piping.strainer import STRAINERS
 from cadplants.families.piping.union import UNIONS
-from cadplants.family import Family
+from cadplants.model.family import Family
 
 __all__ = ["PIPEWORK"]
 

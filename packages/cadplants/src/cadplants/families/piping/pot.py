@@ -20,12 +20,12 @@ from cadplants.families.piping.shape import (
     sized,
     swell_room,
 )
-from cadplants.family import Model
-from cadplants.flange import plate_thickness
-from cadplants.mesh_ops import merge, moved
-from cadplants.primitives import BOTH, around, box, cylinder, dome, hexagon, rod, torus, turned
-from cadplants.standards import SIZES, sizes_between
-from cadplants.transforms import at, spun
+from cadplants.model.family import Model
+from cadplants.model.standards import SIZES, sizes_between
+from cadplants.parts.flange import plate_thickness
+from cadplants.solids.mesh_ops import merge, moved
+from cadplants.solids.primitives import BOTH, around, box, cylinder, dome, hexagon, rod, torus, turned
+from cadplants.solids.transforms import at, spun
 
 __all__ = ["POTS", "Strainer"]
 

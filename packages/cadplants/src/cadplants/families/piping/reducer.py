@@ -26,15 +26,15 @@ from cadplants.families.piping.shape import (
     prism,
     sized,
 )
-from cadplants.family import Model, Part, placed
-from cadplants.flange import plate_thickness
-from cadplants.mesh_ops import Solid, merge, moved
-from cadplants.modeling_style import ModelingStyle
-from cadplants.polygon import circle
-from cadplants.primitives import box, lofted, rope
-from cadplants.standards import PIPES, SIZES, sizes_between
-from cadplants.transforms import at, spun
-from cadplants.valve_body import bore_of
+from cadplants.model.family import Model, Part, placed
+from cadplants.model.standards import PIPES, SIZES, sizes_between
+from cadplants.parts.flange import plate_thickness
+from cadplants.parts.valve_body import bore_of
+from cadplants.solids.mesh_ops import Solid, merge, moved
+from cadplants.solids.polygon import circle
+from cadplants.solids.primitives import box, lofted, rope
+from cadplants.solids.transforms import at, spun
+from cadplants.styles.modeling_style import ModelingStyle
 
 __all__ = ["REDUCERS"]
 

@@ -11,9 +11,13 @@ from cadgraph.model.scene import Floats
 from cadplants.builder.device import Device
 from cadplants.builder.params import Params, among, between, given
 from cadplants.builder.table import Table
-from cadplants.family import Part
-from cadplants.flange import bolts, flange, flange_length, gasket, nut_room, plate_thickness
-from cadplants.mesh_ops import (
+from cadplants.model.family import Part
+from cadplants.model.plant import Assembly
+from cadplants.model.standards import FLANGES, PIPES, SIZES, sizes_between
+from cadplants.parts.flange import bolts, flange, flange_length, gasket, nut_room, plate_thickness
+from cadplants.parts.piping import cap
+from cadplants.parts.valve_body import bore_of
+from cadplants.solids.mesh_ops import (
     Branch,
     Shell,
     Solid,
@@ -27,14 +31,10 @@ from cadplants.mesh_ops import (
     revolve,
     weld,
 )
-from cadplants.modeling_style import ModelingStyle
-from cadplants.piping import cap
-from cadplants.plant import Assembly
-from cadplants.polygon import circle, rounded_rectangle
-from cadplants.primitives import cylinder, hexagon, ring, turned
-from cadplants.standards import FLANGES, PIPES, SIZES, sizes_between
-from cadplants.transforms import IDENTITY, arc, at, spun
-from cadplants.valve_body import bore_of
+from cadplants.solids.polygon import circle, rounded_rectangle
+from cadplants.solids.primitives import cylinder, hexagon, ring, turned
+from cadplants.solids.transforms import IDENTITY, arc, at, spun
+from cadplants.styles.modeling_style import ModelingStyle
 
 __all__ = [
     "BACK",

@@ -23,12 +23,12 @@ from cadplants.families.piping.shape import (
     sized,
     swell_room,
 )
-from cadplants.family import Model
-from cadplants.flange import plate_thickness
-from cadplants.mesh_ops import Solid, about_x, extrude, moved, revolve, weld
-from cadplants.primitives import box, cylinder, turned
-from cadplants.standards import FACE_TO_FACE, SIZES, sizes_between
-from cadplants.transforms import IDENTITY, at, spun
+from cadplants.model.family import Model
+from cadplants.model.standards import FACE_TO_FACE, SIZES, sizes_between
+from cadplants.parts.flange import plate_thickness
+from cadplants.solids.mesh_ops import Solid, about_x, extrude, moved, revolve, weld
+from cadplants.solids.primitives import box, cylinder, turned
+from cadplants.solids.transforms import IDENTITY, at, spun
 
 __all__ = ["STRAINERS"]
 

@@ -23,11 +23,11 @@ from cadplants.families.piping.shape import (
     prism,
     sized,
 )
-from cadplants.family import Model
-from cadplants.mesh_ops import Solid, merge, moved
-from cadplants.primitives import BOTH, box, cylinder, rod, rope, torus
-from cadplants.standards import SIZES, sizes_between
-from cadplants.transforms import at, spun
+from cadplants.model.family import Model
+from cadplants.model.standards import SIZES, sizes_between
+from cadplants.solids.mesh_ops import Solid, merge, moved
+from cadplants.solids.primitives import BOTH, box, cylinder, rod, rope, torus
+from cadplants.solids.transforms import at, spun
 
 __all__ = ["UNIONS"]
 

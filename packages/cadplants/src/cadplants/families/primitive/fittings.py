@@ -20,11 +20,18 @@ from cadplants.families.primitive.shape import (
     sleeve,
     torus_piece,
 )
-from cadplants.family import Family, Model
-from cadplants.mesh_ops import Solid, loft, merge, moved, revolve, weld
-from cadplants.primitives import ball, cylinder, torus
-from cadplants.standards import ELBOW_LONG_RADIUS, PIPES, REDUCER_LENGTH, TEE_CENTER_TO_END, sizes_between, smaller
-from cadplants.transforms import arc, at, spun
+from cadplants.model.family import Family, Model
+from cadplants.model.standards import (
+    ELBOW_LONG_RADIUS,
+    PIPES,
+    REDUCER_LENGTH,
+    TEE_CENTER_TO_END,
+    sizes_between,
+    smaller,
+)
+from cadplants.solids.mesh_ops import Solid, loft, merge, moved, revolve, weld
+from cadplants.solids.primitives import ball, cylinder, torus
+from cadplants.solids.transforms import arc, at, spun
 
 __all__ = ["PRIMITIVE_FITTINGS"]
 

@@ -15,11 +15,11 @@ from cadplants.families.primitive.shape import (
     lying,
     torus_piece,
 )
-from cadplants.family import Family, Model
-from cadplants.mesh_ops import merge, moved
-from cadplants.primitives import box, cylinder, ring
-from cadplants.standards import sizes_between
-from cadplants.transforms import at, spun
+from cadplants.model.family import Family, Model
+from cadplants.model.standards import sizes_between
+from cadplants.solids.mesh_ops import merge, moved
+from cadplants.solids.primitives import box, cylinder, ring
+from cadplants.solids.transforms import at, spun
 
 __all__ = ["PRIMITIVE_INSTRUMENTS"]
 

@@ -20,12 +20,12 @@ from cadplants.families.primitive.shape import (
     pipe_piece,
     vessel,
 )
-from cadplants.family import Family, Model, Port
-from cadplants.mesh_ops import Solid, moved
-from cadplants.modeling_style import ModelingStyle
-from cadplants.primitives import box, cylinder
-from cadplants.standards import PIPES, sizes_between, smaller
-from cadplants.transforms import at, looking, spun
+from cadplants.model.family import Family, Model, Port
+from cadplants.model.standards import PIPES, sizes_between, smaller
+from cadplants.solids.mesh_ops import Solid, moved
+from cadplants.solids.primitives import box, cylinder
+from cadplants.solids.transforms import at, looking, spun
+from cadplants.styles.modeling_style import ModelingStyle
 
 __all__ = ["PRIMITIVE_MACHINES"]
 

@@ -21,12 +21,12 @@ from cadplants.families.primitive.shape import (
     sleeve,
     torus_piece,
 )
-from cadplants.family import Family, Model, Port
-from cadplants.mesh_ops import Solid, extrude, merge, moved
-from cadplants.modeling_style import ModelingStyle
-from cadplants.primitives import box
-from cadplants.standards import FLANGES, PIPES, smaller
-from cadplants.transforms import at, looking, spun
+from cadplants.model.family import Family, Model, Port
+from cadplants.model.standards import FLANGES, PIPES, smaller
+from cadplants.solids.mesh_ops import Solid, extrude, merge, moved
+from cadplants.solids.primitives import box
+from cadplants.solids.transforms import at, looking, spun
+from cadplants.styles.modeling_style import ModelingStyle
 
 __all__ = ["PRIMITIVE_PIECES"]
 

@@ -9,7 +9,7 @@ from cadplants.families.primitive.pieces import PRIMITIVE_PIECES
 from cadplants.families.primitive.steel import PRIMITIVE_STEEL
 from cadplants.families.primitive.utilities import PRIMITIVE_UTILITIES
 from cadplants.families.primitive.valves import PRIMITIVE_VALVES
-from cadplants.family import Family
+from cadplants.model.family import Family
 
 __all__ = ["PRIMITIVES"]
 

@@ -8,11 +8,11 @@ import numpy as np
 
 from cadgraph.model.scene import Floats
 from cadplants.builder.params import Params, among, chance, given
-from cadplants.mesh_ops import Solid, about_x, merge, moved, revolve, tube, weld
-from cadplants.modeling_style import ModelingStyle
-from cadplants.primitives import cylinder, ring, torus, turned
-from cadplants.standards import FLANGES, PIPES
-from cadplants.transforms import at
+from cadplants.model.standards import FLANGES, PIPES
+from cadplants.solids.mesh_ops import Solid, about_x, merge, moved, revolve, tube, weld
+from cadplants.solids.primitives import cylinder, ring, torus, turned
+from cadplants.solids.transforms import at
+from cadplants.styles.modeling_style import ModelingStyle
 
 __all__ = [
     "FRAME",

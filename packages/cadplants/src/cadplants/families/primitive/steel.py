@@ -18,11 +18,11 @@ from cadplants.families.primitive.shape import (
     lying,
     torus_piece,
 )
-from cadplants.family import Family, Model
-from cadplants.mesh_ops import Solid, extrude, moved
-from cadplants.polygon import circle, rounded_rectangle, section_angle, section_channel, section_i
-from cadplants.primitives import BOTH, bar, box, cylinder, rod, torus
-from cadplants.transforms import at, spun
+from cadplants.model.family import Family, Model
+from cadplants.solids.mesh_ops import Solid, extrude, moved
+from cadplants.solids.polygon import circle, rounded_rectangle, section_angle, section_channel, section_i
+from cadplants.solids.primitives import BOTH, bar, box, cylinder, rod, torus
+from cadplants.solids.transforms import at, spun
 
 __all__ = ["PRIMITIVE_STEEL"]
 

@@ -15,12 +15,12 @@ from cadplants.families.primitive.shape import (
     lying,
     torus_piece,
 )
-from cadplants.family import Family, Model
-from cadplants.mesh_ops import Solid, extrude, moved
-from cadplants.polygon import rounded_rectangle
-from cadplants.primitives import BOTH, ball, bar, box, cylinder, ring, rod
-from cadplants.standards import PIPES
-from cadplants.transforms import at, spun
+from cadplants.model.family import Family, Model
+from cadplants.model.standards import PIPES
+from cadplants.solids.mesh_ops import Solid, extrude, moved
+from cadplants.solids.polygon import rounded_rectangle
+from cadplants.solids.primitives import BOTH, ball, bar, box, cylinder, ring, rod
+from cadplants.solids.transforms import at, spun
 
 __all__ = ["PRIMITIVE_UTILITIES"]
 

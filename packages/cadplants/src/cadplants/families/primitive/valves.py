@@ -17,12 +17,12 @@ from cadplants.families.primitive.shape import (
     lying,
     spoked,
 )
-from cadplants.family import Family, Model
-from cadplants.mesh_ops import Solid, merge, moved
-from cadplants.plant import Turning
-from cadplants.primitives import ball, box, cylinder, torus, turned
-from cadplants.standards import FLANGES, sizes_between
-from cadplants.transforms import at, spun
+from cadplants.model.family import Family, Model
+from cadplants.model.plant import Turning
+from cadplants.model.standards import FLANGES, sizes_between
+from cadplants.solids.mesh_ops import Solid, merge, moved
+from cadplants.solids.primitives import ball, box, cylinder, torus, turned
+from cadplants.solids.transforms import at, spun
 
 __all__ = ["PRIMITIVE_VALVES"]
 

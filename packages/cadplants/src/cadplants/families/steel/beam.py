@@ -31,10 +31,10 @@ from cadplants.families.steel.shape import (
     span_of,
     trolley,
 )
-from cadplants.family import Model
-from cadplants.polygon import circle, rounded_rectangle
-from cadplants.primitives import BOTH, CORNERS, box
-from cadplants.transforms import at, spun
+from cadplants.model.family import Model
+from cadplants.solids.polygon import circle, rounded_rectangle
+from cadplants.solids.primitives import BOTH, CORNERS, box
+from cadplants.solids.transforms import at, spun
 
 __all__ = ["BEAMS"]
 

@@ -31,11 +31,11 @@ from cadplants.families.steel.shape import (
     span_of,
     trolley,
 )
-from cadplants.family import Model
-from cadplants.mesh_ops import Solid, moved
-from cadplants.polygon import circle, rounded_rectangle
-from cadplants.primitives import BOTH, CORNERS, box, cylinder, rod
-from cadplants.transforms import at, looking, spun
+from cadplants.model.family import Model
+from cadplants.solids.mesh_ops import Solid, moved
+from cadplants.solids.polygon import circle, rounded_rectangle
+from cadplants.solids.primitives import BOTH, CORNERS, box, cylinder, rod
+from cadplants.solids.transforms import at, looking, spun
 
 __all__ = ["BRACES"]
 

@@ -24,12 +24,12 @@ from cadplants.families.steel.shape import (
     slab_xz,
     span_of,
 )
-from cadplants.family import Model
-from cadplants.mesh_ops import Solid, merge, moved
-from cadplants.modeling_style import ModelingStyle
-from cadplants.polygon import circle, rounded_rectangle
-from cadplants.primitives import BOTH, CORNERS, along, box, cylinder, hexagon, ring, rod, turned
-from cadplants.transforms import at, spun
+from cadplants.model.family import Model
+from cadplants.solids.mesh_ops import Solid, merge, moved
+from cadplants.solids.polygon import circle, rounded_rectangle
+from cadplants.solids.primitives import BOTH, CORNERS, along, box, cylinder, hexagon, ring, rod, turned
+from cadplants.solids.transforms import at, spun
+from cadplants.styles.modeling_style import ModelingStyle
 
 __all__ = ["CASTERS", "Casters", "wheel"]
 

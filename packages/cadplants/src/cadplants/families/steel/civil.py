@@ -24,11 +24,11 @@ from cadplants.families.steel.shape import (
     slab_xy,
     slab_xz,
 )
-from cadplants.family import Model
-from cadplants.mesh_ops import Solid, extrude, loft, merge, moved, weld
-from cadplants.polygon import circle
-from cadplants.primitives import CORNERS, box, cylinder, ring, turned
-from cadplants.transforms import at, spun
+from cadplants.model.family import Model
+from cadplants.solids.mesh_ops import Solid, extrude, loft, merge, moved, weld
+from cadplants.solids.polygon import circle
+from cadplants.solids.primitives import CORNERS, box, cylinder, ring, turned
+from cadplants.solids.transforms import at, spun
 
 __all__ = ["CIVIL"]
 

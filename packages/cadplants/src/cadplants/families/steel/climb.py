@@ -20,12 +20,12 @@ from cadplants.families.steel.shape import (
     section,
     span_of,
 )
-from cadplants.family import Model
-from cadplants.mesh_ops import Solid, merge, moved, sweep
-from cadplants.modeling_style import ModelingStyle
-from cadplants.polygon import rounded_rectangle
-from cadplants.primitives import BOTH, box, cylinder, ring
-from cadplants.transforms import at
+from cadplants.model.family import Model
+from cadplants.solids.mesh_ops import Solid, merge, moved, sweep
+from cadplants.solids.polygon import rounded_rectangle
+from cadplants.solids.primitives import BOTH, box, cylinder, ring
+from cadplants.solids.transforms import at
+from cadplants.styles.modeling_style import ModelingStyle
 
 __all__ = ["CLIMBS"]
 

@@ -22,12 +22,12 @@ from cadplants.families.steel.shape import (
     slab_xz,
     span_of,
 )
-from cadplants.family import Model
-from cadplants.mesh_ops import Solid, extrude, moved
-from cadplants.modeling_style import ModelingStyle
-from cadplants.polygon import circle, rounded_rectangle
-from cadplants.primitives import BOTH, box, cylinder, turned
-from cadplants.transforms import at
+from cadplants.model.family import Model
+from cadplants.solids.mesh_ops import Solid, extrude, moved
+from cadplants.solids.polygon import circle, rounded_rectangle
+from cadplants.solids.primitives import BOTH, box, cylinder, turned
+from cadplants.solids.transforms import at
+from cadplants.styles.modeling_style import ModelingStyle
 
 __all__ = ["COLUMNS"]
 

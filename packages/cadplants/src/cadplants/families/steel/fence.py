@@ -25,11 +25,11 @@ from cadplants.families.steel.shape import (
     slab_xy,
     slab_xz,
 )
-from cadplants.family import Model
-from cadplants.mesh_ops import Solid, extrude, merge, moved
-from cadplants.modeling_style import ModelingStyle
-from cadplants.primitives import BOTH, along, box, cylinder, dome, ring, rod
-from cadplants.transforms import at, spun
+from cadplants.model.family import Model
+from cadplants.solids.mesh_ops import Solid, extrude, merge, moved
+from cadplants.solids.primitives import BOTH, along, box, cylinder, dome, ring, rod
+from cadplants.solids.transforms import at, spun
+from cadplants.styles.modeling_style import ModelingStyle
 
 __all__ = ["FENCES"]
 

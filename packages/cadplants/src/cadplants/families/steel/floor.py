@@ -28,12 +28,12 @@ from cadplants.families.steel.shape import (
     slab_yz,
     span_of,
 )
-from cadplants.family import Model
-from cadplants.mesh_ops import Solid, extrude, merge, moved
-from cadplants.modeling_style import ModelingStyle
-from cadplants.polygon import circle
-from cadplants.primitives import BOTH, CORNERS, box, cylinder, ring
-from cadplants.transforms import at, spun
+from cadplants.model.family import Model
+from cadplants.solids.mesh_ops import Solid, extrude, merge, moved
+from cadplants.solids.polygon import circle
+from cadplants.solids.primitives import BOTH, CORNERS, box, cylinder, ring
+from cadplants.solids.transforms import at, spun
+from cadplants.styles.modeling_style import ModelingStyle
 
 __all__ = ["FLOORS", "panel"]
 

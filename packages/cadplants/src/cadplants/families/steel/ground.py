@@ -16,10 +16,10 @@ from cadplants.families.steel.shape import (
     slab_xy,
     slab_xz,
 )
-from cadplants.family import Model
-from cadplants.mesh_ops import Solid
-from cadplants.polygon import circle
-from cadplants.primitives import BOTH, box, cylinder, turned
+from cadplants.model.family import Model
+from cadplants.solids.mesh_ops import Solid
+from cadplants.solids.polygon import circle
+from cadplants.solids.primitives import BOTH, box, cylinder, turned
 
 __all__ = ["GROUNDS"]
 

@@ -23,12 +23,12 @@ from cadplants.families.steel.shape import (
     slab_xz,
     span_of,
 )
-from cadplants.family import Model
-from cadplants.mesh_ops import Solid, merge, moved, sweep
-from cadplants.modeling_style import ModelingStyle
-from cadplants.polygon import circle, rounded_rectangle
-from cadplants.primitives import BOTH, along, ball, box, cylinder, dome, ring, rod, torus, turned
-from cadplants.transforms import at, spun
+from cadplants.model.family import Model
+from cadplants.solids.mesh_ops import Solid, merge, moved, sweep
+from cadplants.solids.polygon import circle, rounded_rectangle
+from cadplants.solids.primitives import BOTH, along, ball, box, cylinder, dome, ring, rod, torus, turned
+from cadplants.solids.transforms import at, spun
+from cadplants.styles.modeling_style import ModelingStyle
 
 __all__ = ["RAILS"]
 

@@ -13,11 +13,11 @@ from cadplants.builder.device import Device
 from cadplants.builder.draws import made, of_form, one_of
 from cadplants.builder.params import Params, among, between, chance, several
 from cadplants.builder.table import Table
-from cadplants.mesh_ops import Solid, extrude, lattice, merge, moved, tube
-from cadplants.modeling_style import ModelingStyle
-from cadplants.polygon import circle, rounded_rectangle
-from cadplants.primitives import BOTH, CORNERS, along, box, cylinder, hexagon, rope
-from cadplants.transforms import at, looking, spun
+from cadplants.solids.mesh_ops import Solid, extrude, lattice, merge, moved, tube
+from cadplants.solids.polygon import circle, rounded_rectangle
+from cadplants.solids.primitives import BOTH, CORNERS, along, box, cylinder, hexagon, rope
+from cadplants.solids.transforms import at, looking, spun
+from cadplants.styles.modeling_style import ModelingStyle
 
 __all__ = [
     "ROLLED",

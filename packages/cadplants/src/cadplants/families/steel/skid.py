@@ -27,11 +27,11 @@ from cadplants.families.steel.shape import (
     slab_yz,
     span_of,
 )
-from cadplants.family import Model
-from cadplants.mesh_ops import Solid, moved
-from cadplants.polygon import circle, rounded_rectangle
-from cadplants.primitives import BOTH, CORNERS, box, cylinder, ring, turned
-from cadplants.transforms import at, spun
+from cadplants.model.family import Model
+from cadplants.solids.mesh_ops import Solid, moved
+from cadplants.solids.polygon import circle, rounded_rectangle
+from cadplants.solids.primitives import BOTH, CORNERS, box, cylinder, ring, turned
+from cadplants.solids.transforms import at, spun
 
 __all__ = ["SKIDS"]
 

@@ -25,8 +25,8 @@ from cadplants.families.steel.shape import (
     slab_xz,
     span_of,
 )
-from cadplants.family import Model
-from cadplants.primitives import BOTH, CORNERS, box, cylinder, dome, ring
+from cadplants.model.family import Model
+from cadplants.solids.primitives import BOTH, CORNERS, box, cylinder, dome, ring
 
 __all__ = ["STAIRS"]
 

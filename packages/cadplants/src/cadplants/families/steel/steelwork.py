@@ -14,7 +14,7 @@ from cadplants.families.steel.ground import GROUNDS
 from cadplants.families.steel.rail import RAILS
 from cadplants.families.steel.skid import SKIDS
 from cadplants.families.steel.stair import STAIRS
-from cadplants.family import Family
+from cadplants.model.family import Family
 
 __all__ = ["STEELWORK"]
 

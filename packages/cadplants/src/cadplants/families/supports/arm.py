@@ -31,11 +31,11 @@ from cadplants.families.supports.shape import (
     upright,
 )
 from cadplants.families.supports.stand import Bracket, Tie
-from cadplants.family import Model
-from cadplants.mesh_ops import extrude, lattice
-from cadplants.polygon import circle, rounded_rectangle, section_i
-from cadplants.primitives import BOTH, CORNERS, bar, box, cylinder, hexagon, ring, rod, turned
-from cadplants.standards import SIZES
+from cadplants.model.family import Model
+from cadplants.model.standards import SIZES
+from cadplants.solids.mesh_ops import extrude, lattice
+from cadplants.solids.polygon import circle, rounded_rectangle, section_i
+from cadplants.solids.primitives import BOTH, CORNERS, bar, box, cylinder, hexagon, ring, rod, turned
 
 __all__ = ["ARMS"]
 

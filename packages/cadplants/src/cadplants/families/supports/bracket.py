@@ -22,10 +22,10 @@ from cadplants.families.supports.shape import (
     slab_yz,
     strap,
 )
-from cadplants.family import Model
-from cadplants.mesh_ops import Solid, extrude, merge
-from cadplants.polygon import rounded_rectangle
-from cadplants.primitives import BOTH, along, box, cylinder, hexagon, ring, rod, rope, turned
+from cadplants.model.family import Model
+from cadplants.solids.mesh_ops import Solid, extrude, merge
+from cadplants.solids.polygon import rounded_rectangle
+from cadplants.solids.primitives import BOTH, along, box, cylinder, hexagon, ring, rod, rope, turned
 
 __all__ = ["BRACKETS"]
 

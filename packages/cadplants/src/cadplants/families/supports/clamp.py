@@ -25,13 +25,13 @@ from cadplants.families.supports.shape import (
     standing,
     strap,
 )
-from cadplants.family import Model
-from cadplants.mesh_ops import Solid, extrude, moved
-from cadplants.modeling_style import ModelingStyle
-from cadplants.polygon import circle, rounded_rectangle, section_channel, section_i
-from cadplants.primitives import BOTH, along, bar, box, cylinder, hexagon, ring
-from cadplants.standards import SIZES, sizes_between
-from cadplants.transforms import IDENTITY, at, spun
+from cadplants.model.family import Model
+from cadplants.model.standards import SIZES, sizes_between
+from cadplants.solids.mesh_ops import Solid, extrude, moved
+from cadplants.solids.polygon import circle, rounded_rectangle, section_channel, section_i
+from cadplants.solids.primitives import BOTH, along, bar, box, cylinder, hexagon, ring
+from cadplants.solids.transforms import IDENTITY, at, spun
+from cadplants.styles.modeling_style import ModelingStyle
 
 __all__ = ["CLAMPS", "add_halves", "half_band"]
 

@@ -19,12 +19,12 @@ from cadplants.families.supports.shape import (
     slab_yz,
     strap,
 )
-from cadplants.family import Model
-from cadplants.mesh_ops import Solid, about_x, extrude, moved, sweep
-from cadplants.modeling_style import ModelingStyle
-from cadplants.polygon import circle, rounded_rectangle, section_angle, section_channel, section_i
-from cadplants.primitives import BOTH, CORNERS, along, box, cylinder, hexagon, ring, rod, torus, turned
-from cadplants.transforms import at, spun
+from cadplants.model.family import Model
+from cadplants.solids.mesh_ops import Solid, about_x, extrude, moved, sweep
+from cadplants.solids.polygon import circle, rounded_rectangle, section_angle, section_channel, section_i
+from cadplants.solids.primitives import BOTH, CORNERS, along, box, cylinder, hexagon, ring, rod, torus, turned
+from cadplants.solids.transforms import at, spun
+from cadplants.styles.modeling_style import ModelingStyle
 
 __all__ = ["CONNECTIONS"]
 

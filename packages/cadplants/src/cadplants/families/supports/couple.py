@@ -19,12 +19,12 @@ from cadplants.families.supports.shape import (
     strap,
     upright,
 )
-from cadplants.family import Model
-from cadplants.mesh_ops import Solid, extrude, merge, moved, tube
-from cadplants.polygon import circle, rounded_rectangle, section_channel, section_i
-from cadplants.primitives import BOTH, CORNERS, along, bar, box, cylinder, hexagon, ring
-from cadplants.standards import SIZES
-from cadplants.transforms import at, spun
+from cadplants.model.family import Model
+from cadplants.model.standards import SIZES
+from cadplants.solids.mesh_ops import Solid, extrude, merge, moved, tube
+from cadplants.solids.polygon import circle, rounded_rectangle, section_channel, section_i
+from cadplants.solids.primitives import BOTH, CORNERS, along, bar, box, cylinder, hexagon, ring
+from cadplants.solids.transforms import at, spun
 
 __all__ = ["COUPLES"]
 

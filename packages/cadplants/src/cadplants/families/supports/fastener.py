@@ -12,12 +12,12 @@ from cadplants.builder.draws import made
 from cadplants.builder.params import Params, among, between, chance, each, given, several, styled, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.supports.shape import Fitting, eye, few, shuffled, upright
-from cadplants.family import Model
-from cadplants.mesh_ops import Solid, extrude, merge, moved
-from cadplants.modeling_style import ModelingStyle
-from cadplants.polygon import circle, rounded_rectangle, section_channel, section_i
-from cadplants.primitives import around, bar, box, cylinder, dome, hexagon, ring, rope, turned
-from cadplants.transforms import arc, at, spun
+from cadplants.model.family import Model
+from cadplants.solids.mesh_ops import Solid, extrude, merge, moved
+from cadplants.solids.polygon import circle, rounded_rectangle, section_channel, section_i
+from cadplants.solids.primitives import around, bar, box, cylinder, dome, hexagon, ring, rope, turned
+from cadplants.solids.transforms import arc, at, spun
+from cadplants.styles.modeling_style import ModelingStyle
 
 __all__ = ["FASTENERS", "add_piece", "head_solid", "nut_solid"]
 

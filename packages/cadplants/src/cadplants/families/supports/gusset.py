@@ -17,11 +17,11 @@ from cadplants.families.supports.shape import (
     slab_yz,
     upright,
 )
-from cadplants.family import Model
-from cadplants.mesh_ops import extrude, merge
-from cadplants.polygon import circle, rounded_rectangle, section_angle, section_channel, section_i
-from cadplants.primitives import BOTH, CORNERS, bar, box, cylinder, hexagon, ring
-from cadplants.transforms import spun
+from cadplants.model.family import Model
+from cadplants.solids.mesh_ops import extrude, merge
+from cadplants.solids.polygon import circle, rounded_rectangle, section_angle, section_channel, section_i
+from cadplants.solids.primitives import BOTH, CORNERS, bar, box, cylinder, hexagon, ring
+from cadplants.solids.transforms import spun
 
 __all__ = ["GUSSETS"]
 

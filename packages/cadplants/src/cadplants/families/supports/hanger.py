@@ -29,13 +29,13 @@ from cadplants.families.supports.shape import (
     strap,
     upright,
 )
-from cadplants.family import Model
-from cadplants.mesh_ops import Solid, merge, moved
-from cadplants.modeling_style import ModelingStyle
-from cadplants.polygon import section_channel, section_i
-from cadplants.primitives import BOTH, along, around, bar, box, cylinder, hexagon, ring, rod, rope, turned
-from cadplants.standards import SIZES
-from cadplants.transforms import spun
+from cadplants.model.family import Model
+from cadplants.model.standards import SIZES
+from cadplants.solids.mesh_ops import Solid, merge, moved
+from cadplants.solids.polygon import section_channel, section_i
+from cadplants.solids.primitives import BOTH, along, around, bar, box, cylinder, hexagon, ring, rod, rope, turned
+from cadplants.solids.transforms import spun
+from cadplants.styles.modeling_style import ModelingStyle
 
 __all__ = ["HANGERS", "Hanger", "add_eye", "add_nut", "add_rod", "add_upright_clamp", "roller"]
 

@@ -16,11 +16,11 @@ from cadplants.families.supports.shape import (
     strap,
     upright,
 )
-from cadplants.family import Model
-from cadplants.mesh_ops import extrude, moved
-from cadplants.polygon import circle, rounded_rectangle, section_i
-from cadplants.primitives import BOTH, CORNERS, bar, box, cylinder, dome, ring, rod
-from cadplants.transforms import at
+from cadplants.model.family import Model
+from cadplants.solids.mesh_ops import extrude, moved
+from cadplants.solids.polygon import circle, rounded_rectangle, section_i
+from cadplants.solids.primitives import BOTH, CORNERS, bar, box, cylinder, dome, ring, rod
+from cadplants.solids.transforms import at
 
 __all__ = ["JOINTS"]
 

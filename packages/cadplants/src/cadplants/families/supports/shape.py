@@ -25,12 +25,12 @@ from cadplants.builder.params import (
     whole,
 )
 from cadplants.builder.table import Table
-from cadplants.mesh_ops import Solid, about_x, extrude, merge, moved, sweep
-from cadplants.modeling_style import ModelingStyle
-from cadplants.polygon import circle, rounded_rectangle, section_angle, section_channel, section_i
-from cadplants.primitives import BOTH, CORNERS, bar, box, cylinder, dome, hexagon, ring, rope, torus
-from cadplants.standards import PIPES
-from cadplants.transforms import spun
+from cadplants.model.standards import PIPES
+from cadplants.solids.mesh_ops import Solid, about_x, extrude, merge, moved, sweep
+from cadplants.solids.polygon import circle, rounded_rectangle, section_angle, section_channel, section_i
+from cadplants.solids.primitives import BOTH, CORNERS, bar, box, cylinder, dome, hexagon, ring, rope, torus
+from cadplants.solids.transforms import spun
+from cadplants.styles.modeling_style import ModelingStyle
 
 __all__ = [
     "Below", "Carrier", "Feet", "Fitting", "Footing", "Overhead", "Section", "Standing",

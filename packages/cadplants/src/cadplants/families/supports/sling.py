@@ -25,12 +25,12 @@ from cadplants.families.supports.shape import (
     strap,
     upright,
 )
-from cadplants.family import Model
-from cadplants.mesh_ops import Solid, extrude, moved, sweep
-from cadplants.polygon import circle, rounded_rectangle
-from cadplants.primitives import BOTH, along, box, cylinder, dome, hexagon, rod, rope
-from cadplants.standards import SIZES
-from cadplants.transforms import at, spun
+from cadplants.model.family import Model
+from cadplants.model.standards import SIZES
+from cadplants.solids.mesh_ops import Solid, extrude, moved, sweep
+from cadplants.solids.polygon import circle, rounded_rectangle
+from cadplants.solids.primitives import BOTH, along, box, cylinder, dome, hexagon, rod, rope
+from cadplants.solids.transforms import at, spun
 
 __all__ = ["SLINGS"]
 

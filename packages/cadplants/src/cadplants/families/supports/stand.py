@@ -30,13 +30,13 @@ from cadplants.families.supports.shape import (
     strap,
     upright,
 )
-from cadplants.family import Model
-from cadplants.mesh_ops import Solid, extrude
-from cadplants.modeling_style import ModelingStyle
-from cadplants.polygon import section_i
-from cadplants.primitives import BOTH, CORNERS, bar, box, cylinder, hexagon, ring, rope, turned
-from cadplants.standards import SIZES
-from cadplants.transforms import spun
+from cadplants.model.family import Model
+from cadplants.model.standards import SIZES
+from cadplants.solids.mesh_ops import Solid, extrude
+from cadplants.solids.polygon import section_i
+from cadplants.solids.primitives import BOTH, CORNERS, bar, box, cylinder, hexagon, ring, rope, turned
+from cadplants.solids.transforms import spun
+from cadplants.styles.modeling_style import ModelingStyle
 
 __all__ = ["STANDS", "Bracket", "Tie"]
 

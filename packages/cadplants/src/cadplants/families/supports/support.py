@@ -14,7 +14,7 @@ from cadplants.families.supports.mount import MOUNTS
 from cadplants.families.supports.sling import SLINGS
 from cadplants.families.supports.stand import STANDS
 from cadplants.families.supports.ubolt import U_BOLTS
-from cadplants.family import Family
+from cadplants.model.family import Family
 
 __all__ = ["SUPPORTS"]
 

@@ -26,11 +26,11 @@ from cadplants.families.supports.shape import (
     standing,
     strap,
 )
-from cadplants.family import Model
-from cadplants.mesh_ops import extrude, moved
-from cadplants.polygon import circle, rounded_rectangle, section_angle, section_channel, section_i
-from cadplants.primitives import BOTH, along, bar, box, ring, rope
-from cadplants.transforms import at, spun
+from cadplants.model.family import Model
+from cadplants.solids.mesh_ops import extrude, moved
+from cadplants.solids.polygon import circle, rounded_rectangle, section_angle, section_channel, section_i
+from cadplants.solids.primitives import BOTH, along, bar, box, ring, rope
+from cadplants.solids.transforms import at, spun
 
 __all__ = ["U_BOLTS"]
 

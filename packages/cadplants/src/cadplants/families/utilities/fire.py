@@ -10,12 +10,12 @@ from cadplants.builder.device import families_of
 from cadplants.builder.params import among, between, chance, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.utilities.mounting import Utility, h_column, wall
-from cadplants.family import Family, Model
-from cadplants.mesh_ops import Solid, extrude, merge, moved
-from cadplants.modeling_style import ModelingStyle
-from cadplants.polygon import rounded_rectangle
-from cadplants.primitives import BOTH, along, around, box, cylinder, hexagon, ring, rod, rope, torus, turned
-from cadplants.transforms import at, spun
+from cadplants.model.family import Family, Model
+from cadplants.solids.mesh_ops import Solid, extrude, merge, moved
+from cadplants.solids.polygon import rounded_rectangle
+from cadplants.solids.primitives import BOTH, along, around, box, cylinder, hexagon, ring, rod, rope, torus, turned
+from cadplants.solids.transforms import at, spun
+from cadplants.styles.modeling_style import ModelingStyle
 
 __all__ = ["FIRE"]
 

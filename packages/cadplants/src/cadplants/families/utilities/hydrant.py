@@ -9,11 +9,24 @@ from cadplants.builder.draws import yes
 from cadplants.builder.params import among, between, chance, several, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.utilities.mounting import Utility, wall
-from cadplants.family import Family, Model
-from cadplants.mesh_ops import Solid, extrude, merge, moved
-from cadplants.polygon import rounded_rectangle
-from cadplants.primitives import BOTH, along, around, ball, box, cylinder, dome, hexagon, rod, rope, torus, turned
-from cadplants.transforms import at, spun
+from cadplants.model.family import Family, Model
+from cadplants.solids.mesh_ops import Solid, extrude, merge, moved
+from cadplants.solids.polygon import rounded_rectangle
+from cadplants.solids.primitives import (
+    BOTH,
+    along,
+    around,
+    ball,
+    box,
+    cylinder,
+    dome,
+    hexagon,
+    rod,
+    rope,
+    torus,
+    turned,
+)
+from cadplants.solids.transforms import at, spun
 
 __all__ = ["HYDRANTS"]
 

@@ -10,12 +10,12 @@ from cadplants.builder.device import Device
 from cadplants.builder.draws import of_form
 from cadplants.builder.params import Params, among, between
 from cadplants.builder.table import Table
-from cadplants.family import Part
-from cadplants.mesh_ops import Solid, about_x, extrude, merge, moved
-from cadplants.modeling_style import ModelingStyle
-from cadplants.polygon import section_channel, section_i
-from cadplants.primitives import box, cylinder, hexagon, rod
-from cadplants.transforms import at, spun
+from cadplants.model.family import Part
+from cadplants.solids.mesh_ops import Solid, about_x, extrude, merge, moved
+from cadplants.solids.polygon import section_channel, section_i
+from cadplants.solids.primitives import box, cylinder, hexagon, rod
+from cadplants.solids.transforms import at, spun
+from cadplants.styles.modeling_style import ModelingStyle
 
 __all__ = [
     "FRAME",

@@ -11,11 +11,24 @@ from cadplants.builder.draws import made, of_form, one_of, yes
 from cadplants.builder.params import Params, among, between, chance, given, nested, several, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.utilities.mounting import Utility, gland, h_column, pole, wall
-from cadplants.family import Family, Model
-from cadplants.mesh_ops import Solid, about_x, extrude, merge, moved
-from cadplants.polygon import rounded_rectangle
-from cadplants.primitives import BOTH, CORNERS, along, around, box, cylinder, dome, hexagon, rod, rope, torus, turned
-from cadplants.transforms import at, spun
+from cadplants.model.family import Family, Model
+from cadplants.solids.mesh_ops import Solid, about_x, extrude, merge, moved
+from cadplants.solids.polygon import rounded_rectangle
+from cadplants.solids.primitives import (
+    BOTH,
+    CORNERS,
+    along,
+    around,
+    box,
+    cylinder,
+    dome,
+    hexagon,
+    rod,
+    rope,
+    torus,
+    turned,
+)
+from cadplants.solids.transforms import at, spun
 
 __all__ = ["PANELS"]
 

@@ -10,10 +10,10 @@ from cadplants.builder.params import Params, among, between, chance, nested, sev
 from cadplants.builder.table import Table, outline
 from cadplants.families.utilities.mounting import Utility
 from cadplants.families.utilities.tray import perforated
-from cadplants.family import Family, Model
-from cadplants.mesh_ops import Solid, about_x, extrude, merge, moved
-from cadplants.polygon import circle, rounded_rectangle
-from cadplants.primitives import (
+from cadplants.model.family import Family, Model
+from cadplants.solids.mesh_ops import Solid, about_x, extrude, merge, moved
+from cadplants.solids.polygon import circle, rounded_rectangle
+from cadplants.solids.primitives import (
     BOTH,
     CORNERS,
     along,
@@ -28,7 +28,7 @@ from cadplants.primitives import (
     torus,
     turned,
 )
-from cadplants.transforms import at, spun
+from cadplants.solids.transforms import at, spun
 
 __all__ = ["SAFETY"]
 

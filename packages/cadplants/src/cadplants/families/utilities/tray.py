@@ -12,10 +12,10 @@ from cadplants.builder.draws import made, of_form
 from cadplants.builder.params import Params, among, between, chance, given, nested, several, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.utilities.mounting import Utility, beam_over, h_column, hanger, wall
-from cadplants.family import Family, Model
-from cadplants.mesh_ops import Solid, extrude, lattice, merge, moved
-from cadplants.primitives import BOTH, box, rod, rope
-from cadplants.transforms import at, spun
+from cadplants.model.family import Family, Model
+from cadplants.solids.mesh_ops import Solid, extrude, lattice, merge, moved
+from cadplants.solids.primitives import BOTH, box, rod, rope
+from cadplants.solids.transforms import at, spun
 
 __all__ = ["TRAYS", "perforated"]
 

@@ -9,7 +9,7 @@ from cadplants.families.utilities.panel import PANELS
 from cadplants.families.utilities.tray import TRAYS
 from cadplants.families.utilities.view import VIEWS
 from cadplants.families.utilities.wiring import WIRING
-from cadplants.family import Family
+from cadplants.model.family import Family
 
 __all__ = ["UTILITIES"]
 

@@ -12,12 +12,12 @@ from cadplants.builder.draws import made, number, of_form
 from cadplants.builder.params import Params, among, between, chance, nested, several, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.utilities.mounting import Back, Utility, beam_over, pole, wall
-from cadplants.family import Family, Model
-from cadplants.mesh_ops import about_x, extrude, merge, moved
-from cadplants.modeling_style import ModelingStyle
-from cadplants.polygon import circle, rounded_rectangle
-from cadplants.primitives import BOTH, along, around, ball, box, cylinder, dome, ring, rod, rope, turned
-from cadplants.transforms import at, spun
+from cadplants.model.family import Family, Model
+from cadplants.solids.mesh_ops import about_x, extrude, merge, moved
+from cadplants.solids.polygon import circle, rounded_rectangle
+from cadplants.solids.primitives import BOTH, along, around, ball, box, cylinder, dome, ring, rod, rope, turned
+from cadplants.solids.transforms import at, spun
+from cadplants.styles.modeling_style import ModelingStyle
 
 __all__ = ["VIEWS"]
 

@@ -12,11 +12,11 @@ from cadplants.builder.draws import made, number, of_form, yes
 from cadplants.builder.params import Params, among, between, chance, given, several, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.utilities.mounting import Utility, beam_over, h_column, pole, strut, wall
-from cadplants.family import Family, Model
-from cadplants.mesh_ops import extrude, merge, moved
-from cadplants.polygon import rounded_rectangle
-from cadplants.primitives import BOTH, along, box, cylinder, hexagon, ring, rod, rope, torus
-from cadplants.transforms import at, spun
+from cadplants.model.family import Family, Model
+from cadplants.solids.mesh_ops import extrude, merge, moved
+from cadplants.solids.polygon import rounded_rectangle
+from cadplants.solids.primitives import BOTH, along, box, cylinder, hexagon, ring, rod, rope, torus
+from cadplants.solids.transforms import at, spun
 
 __all__ = ["WIRING"]
 

@@ -14,10 +14,10 @@ from cadplants.families.valves.actuation_base import INDICATORS, QUARTERS, put_i
 from cadplants.families.valves.actuation_gear import Bevel, Worm
 from cadplants.families.valves.actuation_hand import Handlever, Handwheel, cylinder_at, scaled, slab, span
 from cadplants.families.valves.drive import BODY, Scaled, driven
-from cadplants.mesh_ops import merge, moved
-from cadplants.polygon import circle, rounded_rectangle
-from cadplants.primitives import BOTH, along, box, cylinder, hexagon, rod, turned
-from cadplants.transforms import at, spun
+from cadplants.solids.mesh_ops import merge, moved
+from cadplants.solids.polygon import circle, rounded_rectangle
+from cadplants.solids.primitives import BOTH, along, box, cylinder, hexagon, rod, turned
+from cadplants.solids.transforms import at, spun
 
 __all__ = [
     "OPERATORS",

@@ -7,10 +7,10 @@ import numpy as np
 from cadplants.builder.table import Table, outline
 from cadplants.families.valves.actuation_hand import scaled, slab
 from cadplants.families.valves.drive import BODY
-from cadplants.family import Part
-from cadplants.mesh_ops import Solid
-from cadplants.polygon import rounded_rectangle
-from cadplants.primitives import along, box, cylinder, dome, hexagon, turned
+from cadplants.model.family import Part
+from cadplants.solids.mesh_ops import Solid
+from cadplants.solids.polygon import rounded_rectangle
+from cadplants.solids.primitives import along, box, cylinder, dome, hexagon, turned
 
 __all__ = [
     "INDICATORS", "QUARTERS", "STEMS", "bolted", "put_indicator", "put_stem",

@@ -8,11 +8,11 @@ from cadplants.builder.params import Params, among, between, chance, nested, wei
 from cadplants.builder.table import Table, outline
 from cadplants.families.valves.actuation_base import INDICATORS, put_indicator, put_stem
 from cadplants.families.valves.actuation_hand import Handwheel, cylinder_at, scaled, slab
-from cadplants.mesh_ops import Solid, moved
-from cadplants.plant import Turning
-from cadplants.polygon import rounded_rectangle
-from cadplants.primitives import along, around, box, cylinder, hexagon, ring, rod, rope, turned
-from cadplants.transforms import spun
+from cadplants.model.plant import Turning
+from cadplants.solids.mesh_ops import Solid, moved
+from cadplants.solids.polygon import rounded_rectangle
+from cadplants.solids.primitives import along, around, box, cylinder, hexagon, ring, rod, rope, turned
+from cadplants.solids.transforms import spun
 
 __all__ = ["Bevel", "Worm"]
 

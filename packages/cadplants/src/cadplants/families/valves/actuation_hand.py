@@ -10,12 +10,12 @@ from cadgraph.model.scene import Floats
 from cadplants.builder.draws import of_makes
 from cadplants.builder.params import Params, among, between, chance, nested, weighted, whole
 from cadplants.builder.table import Table, outline
-from cadplants.mesh_ops import Solid, extrude, loft, merge, moved, revolve, sweep, weld
-from cadplants.modeling_style import ModelingStyle
-from cadplants.plant import Turning
-from cadplants.polygon import circle, rounded_rectangle
-from cadplants.primitives import along, around, ball, box, cylinder, hexagon, ring, rod, rope, torus, turned
-from cadplants.transforms import at, spun
+from cadplants.model.plant import Turning
+from cadplants.solids.mesh_ops import Solid, extrude, loft, merge, moved, revolve, sweep, weld
+from cadplants.solids.polygon import circle, rounded_rectangle
+from cadplants.solids.primitives import along, around, ball, box, cylinder, hexagon, ring, rod, rope, torus, turned
+from cadplants.solids.transforms import at, spun
+from cadplants.styles.modeling_style import ModelingStyle
 
 __all__ = ["Handlever", "Handwheel", "cylinder_at", "levers", "scaled", "slab", "span", "wheels"]
 

@@ -14,10 +14,10 @@ from cadplants.families.valves.actuation import OPERATORS, operator
 from cadplants.families.valves.actuation_base import STEMS, put_stem
 from cadplants.families.valves.actuation_hand import Handwheel, scaled, slab
 from cadplants.families.valves.drive import BODY, driven
-from cadplants.mesh_ops import Solid, merge, moved, sweep
-from cadplants.polygon import circle, rounded_rectangle
-from cadplants.primitives import BOTH, along, around, box, cylinder, dome, hexagon, ring, rod, rope, turned
-from cadplants.transforms import at, spun
+from cadplants.solids.mesh_ops import Solid, merge, moved, sweep
+from cadplants.solids.polygon import circle, rounded_rectangle
+from cadplants.solids.primitives import BOTH, along, around, box, cylinder, dome, hexagon, ring, rod, rope, turned
+from cadplants.solids.transforms import at, spun
 
 __all__ = [
     "STROKES",

@@ -26,12 +26,12 @@ from cadplants.families.valves.body import (
     valve_ball,
 )
 from cadplants.families.valves.valve import Valve
-from cadplants.family import Model
-from cadplants.mesh_ops import Solid, about_x, merge, moved, revolve, weld
-from cadplants.modeling_style import ModelingStyle
-from cadplants.primitives import BOTH, along, around, box, cylinder, hexagon, ring, rod, turned
-from cadplants.standards import FACE_TO_FACE, PIPES, sizes_between
-from cadplants.transforms import at, spun
+from cadplants.model.family import Model
+from cadplants.model.standards import FACE_TO_FACE, PIPES, sizes_between
+from cadplants.solids.mesh_ops import Solid, about_x, merge, moved, revolve, weld
+from cadplants.solids.primitives import BOTH, along, around, box, cylinder, hexagon, ring, rod, turned
+from cadplants.solids.transforms import at, spun
+from cadplants.styles.modeling_style import ModelingStyle
 
 __all__ = [
     "BALLS", "BallInside", "ClampedEnds", "StemTop", "ferrule", "part_ring",

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from cadplants.builder.table import Table
-from cadplants.family import Model, placed
+from cadplants.model.family import Model, placed
 
 __all__ = ["HOLLOW", "LAID", "lying", "standing"]
 

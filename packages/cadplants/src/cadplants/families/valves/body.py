@@ -14,15 +14,15 @@ from cadplants.families.valves.actuation_hand import scaled, slab, span
 from cadplants.families.valves.drive import BODY
 from cadplants.families.valves.threaded import hex_end
 from cadplants.families.valves.valve import flanged_body
-from cadplants.family import Part
-from cadplants.flange import plate_thickness
-from cadplants.mesh_ops import Solid, about_x, loft, merge, moved, reverse, revolve, volume, weld
-from cadplants.modeling_style import ModelingStyle
-from cadplants.polygon import circle, rounded_rectangle, triangulate
-from cadplants.primitives import along, around, box, cylinder, dome, hexagon, lofted, rod, turned
-from cadplants.standards import FLANGES, PIPES
-from cadplants.transforms import at, spun
-from cadplants.valve_body import bore_of
+from cadplants.model.family import Part
+from cadplants.model.standards import FLANGES, PIPES
+from cadplants.parts.flange import plate_thickness
+from cadplants.parts.valve_body import bore_of
+from cadplants.solids.mesh_ops import Solid, about_x, loft, merge, moved, reverse, revolve, volume, weld
+from cadplants.solids.polygon import circle, rounded_rectangle, triangulate
+from cadplants.solids.primitives import along, around, box, cylinder, dome, hexagon, lofted, rod, turned
+from cadplants.solids.transforms import at, spun
+from cadplants.styles.modeling_style import ModelingStyle
 
 __all__ = [
     "Blade", "Packing", "TurnedBlade", "bolts_on", "chest", "ended", "lid_joint", "neck_of", "oval",

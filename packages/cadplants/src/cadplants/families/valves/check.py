@@ -13,14 +13,14 @@ from cadplants.families.valves.base import (
 )
 from cadplants.families.valves.parts import BIG, MID, SMALL, cage, cover, hub_radius, spring, thread_nut, threaded_run
 from cadplants.families.valves.valve import Valve, bolt_circle, disc_flange, flanged_body
-from cadplants.family import Model
-from cadplants.flange import plate_thickness
-from cadplants.mesh_ops import Solid, about_x, extrude, merge, moved
-from cadplants.polygon import circle, rounded_rectangle
-from cadplants.primitives import BOTH, along, around, ball, box, cylinder, hexagon, lofted, ring, rod, turned
-from cadplants.standards import FACE_TO_FACE, FLANGES, SIZES
-from cadplants.transforms import at, spun
-from cadplants.valve_body import bore_of
+from cadplants.model.family import Model
+from cadplants.model.standards import FACE_TO_FACE, FLANGES, SIZES
+from cadplants.parts.flange import plate_thickness
+from cadplants.parts.valve_body import bore_of
+from cadplants.solids.mesh_ops import Solid, about_x, extrude, merge, moved
+from cadplants.solids.polygon import circle, rounded_rectangle
+from cadplants.solids.primitives import BOTH, along, around, ball, box, cylinder, hexagon, lofted, ring, rod, turned
+from cadplants.solids.transforms import at, spun
 
 __all__ = ["CHECKS"]
 

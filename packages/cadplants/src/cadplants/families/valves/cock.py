@@ -13,14 +13,14 @@ from cadplants.families.valves.drive import Wheel, drive_of
 from cadplants.families.valves.parts import MID, SMALL, bend, chain, cover, hub_radius, screwed, square
 from cadplants.families.valves.threaded import hex_end
 from cadplants.families.valves.valve import Valve, flanged_body
-from cadplants.family import Model
-from cadplants.mesh_ops import extrude, moved, tube
-from cadplants.plant import Turning
-from cadplants.polygon import circle, rounded_rectangle
-from cadplants.primitives import along, around, ball, box, cylinder, hexagon, ring, rod, rope, turned
-from cadplants.standards import FACE_TO_FACE
-from cadplants.transforms import at, spun
-from cadplants.valve_body import bore_of
+from cadplants.model.family import Model
+from cadplants.model.plant import Turning
+from cadplants.model.standards import FACE_TO_FACE
+from cadplants.parts.valve_body import bore_of
+from cadplants.solids.mesh_ops import extrude, moved, tube
+from cadplants.solids.polygon import circle, rounded_rectangle
+from cadplants.solids.primitives import along, around, ball, box, cylinder, hexagon, ring, rod, rope, turned
+from cadplants.solids.transforms import at, spun
 
 __all__ = ["COCKS"]
 

@@ -20,11 +20,11 @@ from cadplants.families.valves.body import Packing, ended, lid_joint, neck_of, r
 from cadplants.families.valves.globe import GlobeBody, globe_plug
 from cadplants.families.valves.threaded import hex_end
 from cadplants.families.valves.valve import Valve, disc_flange
-from cadplants.family import Model
-from cadplants.mesh_ops import Solid, moved
-from cadplants.primitives import AXES, along, ball, cylinder, hexagon, ring, turned
-from cadplants.standards import FACE_TO_FACE, sizes_between
-from cadplants.transforms import at, spun
+from cadplants.model.family import Model
+from cadplants.model.standards import FACE_TO_FACE, sizes_between
+from cadplants.solids.mesh_ops import Solid, moved
+from cadplants.solids.primitives import AXES, along, ball, cylinder, hexagon, ring, turned
+from cadplants.solids.transforms import at, spun
 
 __all__ = ["CONTROLS"]
 

@@ -16,13 +16,13 @@ from cadplants.families.valves.actuation_hand import Handlever, levers, slab, sp
 from cadplants.families.valves.ball import ClampedEnds, ferrule, part_ring
 from cadplants.families.valves.body import Blade, Packing, TurnedBlade, bolts_on, ended, neck_of, plate_outline
 from cadplants.families.valves.valve import BIG, Valve
-from cadplants.family import Model
-from cadplants.flange import plate_thickness
-from cadplants.mesh_ops import Solid, about_x, merge, moved
-from cadplants.polygon import circle, rounded_rectangle
-from cadplants.primitives import BOTH, along, around, box, cylinder, hexagon, ring, turned
-from cadplants.standards import FACE_TO_FACE, PIPES, sizes_between
-from cadplants.transforms import at, spun
+from cadplants.model.family import Model
+from cadplants.model.standards import FACE_TO_FACE, PIPES, sizes_between
+from cadplants.parts.flange import plate_thickness
+from cadplants.solids.mesh_ops import Solid, about_x, merge, moved
+from cadplants.solids.polygon import circle, rounded_rectangle
+from cadplants.solids.primitives import BOTH, along, around, box, cylinder, hexagon, ring, turned
+from cadplants.solids.transforms import at, spun
 
 __all__ = ["DISCS"]
 

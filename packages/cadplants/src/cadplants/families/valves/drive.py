@@ -10,14 +10,14 @@ import numpy as np
 from cadplants.builder.draws import of_makes
 from cadplants.builder.params import Params, among, between, chance, given, nested, weighted, whole
 from cadplants.builder.table import Table, outline
-from cadplants.mesh_ops import Solid, extrude, merge, moved, sweep
-from cadplants.modeling_style import ModelingStyle
-from cadplants.operator import actuator_solids, handwheel, lever_solid, plate_wheel, solid_wheel
-from cadplants.plant import Turning
-from cadplants.polygon import rounded_rectangle
-from cadplants.primitives import along, around, ball, box, cylinder, hexagon, rod, rope, torus, turned
-from cadplants.standards import PIPES
-from cadplants.transforms import at, spun
+from cadplants.model.plant import Turning
+from cadplants.model.standards import PIPES
+from cadplants.parts.operator import actuator_solids, handwheel, lever_solid, plate_wheel, solid_wheel
+from cadplants.solids.mesh_ops import Solid, extrude, merge, moved, sweep
+from cadplants.solids.polygon import rounded_rectangle
+from cadplants.solids.primitives import along, around, ball, box, cylinder, hexagon, rod, rope, torus, turned
+from cadplants.solids.transforms import at, spun
+from cadplants.styles.modeling_style import ModelingStyle
 
 __all__ = [
     "BODY", "DiaphragmHead", "Drive", "Scaled", "Wheel", "drive_of", "driven", "put_spindle",

@@ -25,12 +25,12 @@ from cadplants.families.valves.body import (
     wedge,
 )
 from cadplants.families.valves.valve import BIG, Valve
-from cadplants.family import Model
-from cadplants.mesh_ops import Solid, merge, moved
-from cadplants.polygon import circle, rounded_rectangle
-from cadplants.primitives import BOTH, along, around, box, cylinder, hexagon, lofted, ring, turned
-from cadplants.standards import FACE_TO_FACE, PIPES, sizes_between
-from cadplants.transforms import at, spun
+from cadplants.model.family import Model
+from cadplants.model.standards import FACE_TO_FACE, PIPES, sizes_between
+from cadplants.solids.mesh_ops import Solid, merge, moved
+from cadplants.solids.polygon import circle, rounded_rectangle
+from cadplants.solids.primitives import BOTH, along, around, box, cylinder, hexagon, lofted, ring, turned
+from cadplants.solids.transforms import at, spun
 
 __all__ = ["GATES", "Gate", "Resilient"]
 

@@ -15,14 +15,14 @@ from cadplants.families.valves.actuation_stroke import screw_of
 from cadplants.families.valves.body import Packing, bolts_on, ended, lid_joint, neck_of, oval, part_turned, room
 from cadplants.families.valves.threaded import hex_end
 from cadplants.families.valves.valve import MID, Valve
-from cadplants.family import Model
-from cadplants.mesh_ops import Solid, about_x, merge, moved
-from cadplants.modeling_style import ModelingStyle
-from cadplants.polygon import circle
-from cadplants.primitives import BOTH, along, ball, box, cylinder, hexagon, lofted, ring, turned, waves
-from cadplants.standards import FACE_TO_FACE, PIPES, sizes_between
-from cadplants.transforms import at
-from cadplants.valve_body import bore_of
+from cadplants.model.family import Model
+from cadplants.model.standards import FACE_TO_FACE, PIPES, sizes_between
+from cadplants.parts.valve_body import bore_of
+from cadplants.solids.mesh_ops import Solid, about_x, merge, moved
+from cadplants.solids.polygon import circle
+from cadplants.solids.primitives import BOTH, along, ball, box, cylinder, hexagon, lofted, ring, turned, waves
+from cadplants.solids.transforms import at
+from cadplants.styles.modeling_style import ModelingStyle
 
 __all__ = ["GLOBES", "GlobeBody", "globe_plug"]
 

@@ -14,13 +14,13 @@ from cadplants.families.valves.base import (
 from cadplants.families.valves.drive import Wheel
 from cadplants.families.valves.parts import SMALL, bend, square, threaded_run
 from cadplants.families.valves.valve import Valve
-from cadplants.family import Model
-from cadplants.mesh_ops import Solid, extrude, moved, tube
-from cadplants.plant import Turning
-from cadplants.polygon import rounded_rectangle
-from cadplants.primitives import BOTH, along, around, ball, box, cylinder, hexagon, ring, rod, turned
-from cadplants.standards import sizes_between
-from cadplants.transforms import at, spun
+from cadplants.model.family import Model
+from cadplants.model.plant import Turning
+from cadplants.model.standards import sizes_between
+from cadplants.solids.mesh_ops import Solid, extrude, moved, tube
+from cadplants.solids.polygon import rounded_rectangle
+from cadplants.solids.primitives import BOTH, along, around, ball, box, cylinder, hexagon, ring, rod, turned
+from cadplants.solids.transforms import at, spun
 
 __all__ = ["HEATING"]
 

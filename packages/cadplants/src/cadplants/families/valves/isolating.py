@@ -11,7 +11,7 @@ from cadplants.families.valves.lining import LININGS
 from cadplants.families.valves.plug import PLUGS
 from cadplants.families.valves.sluice import SLUICES
 from cadplants.families.valves.union import UNIONS
-from cadplants.family import Family
+from cadplants.model.family import Family
 
 __all__ = ["ISOLATING"]
 

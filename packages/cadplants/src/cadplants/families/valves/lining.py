@@ -16,13 +16,13 @@ from cadplants.families.valves.actuation_stroke import STROKES, Yoke
 from cadplants.families.valves.ball import ClampedEnds, ferrule, part_ring
 from cadplants.families.valves.body import bolts_on, ended, lid_joint, neck_of, oval, plate_outline
 from cadplants.families.valves.valve import Valve
-from cadplants.family import Model
-from cadplants.flange import plate_thickness
-from cadplants.mesh_ops import Solid, about_x, merge, moved
-from cadplants.polygon import rounded_rectangle
-from cadplants.primitives import BOTH, along, box, cylinder, hexagon, lofted, ring, rod, turned, waves
-from cadplants.standards import FACE_TO_FACE, sizes_between
-from cadplants.transforms import at
+from cadplants.model.family import Model
+from cadplants.model.standards import FACE_TO_FACE, sizes_between
+from cadplants.parts.flange import plate_thickness
+from cadplants.solids.mesh_ops import Solid, about_x, merge, moved
+from cadplants.solids.polygon import rounded_rectangle
+from cadplants.solids.primitives import BOTH, along, box, cylinder, hexagon, lofted, ring, rod, turned, waves
+from cadplants.solids.transforms import at
 
 __all__ = ["LININGS"]
 

@@ -11,13 +11,13 @@ from cadplants.builder.table import Table
 from cadplants.families.valves.drive import BODY
 from cadplants.families.valves.threaded import hex_end
 from cadplants.families.valves.valve import bolt_circle, disc_flange
-from cadplants.family import Part
-from cadplants.mesh_ops import Solid, extrude, merge, moved
-from cadplants.modeling_style import ModelingStyle
-from cadplants.polygon import circle, rounded_rectangle
-from cadplants.primitives import along, around, box, cylinder, hexagon, rope, torus, turned
-from cadplants.standards import FLANGES, PIPES, sizes_between
-from cadplants.transforms import at
+from cadplants.model.family import Part
+from cadplants.model.standards import FLANGES, PIPES, sizes_between
+from cadplants.solids.mesh_ops import Solid, extrude, merge, moved
+from cadplants.solids.polygon import circle, rounded_rectangle
+from cadplants.solids.primitives import along, around, box, cylinder, hexagon, rope, torus, turned
+from cadplants.solids.transforms import at
+from cadplants.styles.modeling_style import ModelingStyle
 
 __all__ = [
     "BIG", "MID", "SMALL", "bend", "branch", "cage", "chain", "cover", "hub_radius", "screwed", "spring", "square",

@@ -14,12 +14,12 @@ from cadplants.families.valves.actuation_base import put_stem
 from cadplants.families.valves.actuation_hand import Handlever, Handwheel, levers, slab, wheels
 from cadplants.families.valves.body import Packing, ended, lid_joint, neck_of, oval, packings, room
 from cadplants.families.valves.valve import MID, Valve, disc_flange
-from cadplants.family import Model
-from cadplants.mesh_ops import moved
-from cadplants.polygon import rounded_rectangle
-from cadplants.primitives import along, box, cylinder, dome, hexagon, lofted, rod, turned
-from cadplants.standards import FACE_TO_FACE, sizes_between
-from cadplants.transforms import at
+from cadplants.model.family import Model
+from cadplants.model.standards import FACE_TO_FACE, sizes_between
+from cadplants.solids.mesh_ops import moved
+from cadplants.solids.polygon import rounded_rectangle
+from cadplants.solids.primitives import along, box, cylinder, dome, hexagon, lofted, rod, turned
+from cadplants.solids.transforms import at
 
 __all__ = ["PLUGS"]
 

@@ -10,7 +10,7 @@ from cadplants.families.valves.regulate import REGULATORS
 from cadplants.families.valves.relief import RELIEFS
 from cadplants.families.valves.station import STATIONS
 from cadplants.families.valves.vent import VENTS
-from cadplants.family import Family
+from cadplants.model.family import Family
 
 __all__ = ["PROTECTING"]
 

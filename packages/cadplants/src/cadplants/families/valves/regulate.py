@@ -12,13 +12,13 @@ from cadplants.families.valves.base import (
 )
 from cadplants.families.valves.parts import MID, SMALL, bend, cover, hub_radius, spring, threaded_run
 from cadplants.families.valves.valve import Valve, bolt_circle, disc_flange, flanged_body
-from cadplants.family import Model
-from cadplants.flange import plate_thickness
-from cadplants.mesh_ops import Solid, moved
-from cadplants.plant import Turning
-from cadplants.primitives import BOTH, along, around, ball, box, cylinder, hexagon, ring, rod, rope, turned
-from cadplants.standards import FACE_TO_FACE, sizes_between
-from cadplants.transforms import at
+from cadplants.model.family import Model
+from cadplants.model.plant import Turning
+from cadplants.model.standards import FACE_TO_FACE, sizes_between
+from cadplants.parts.flange import plate_thickness
+from cadplants.solids.mesh_ops import Solid, moved
+from cadplants.solids.primitives import BOTH, along, around, ball, box, cylinder, hexagon, ring, rod, rope, turned
+from cadplants.solids.transforms import at
 
 __all__ = ["REGULATORS"]
 

@@ -12,13 +12,13 @@ from cadplants.families.valves.base import (
 )
 from cadplants.families.valves.parts import MID, bend, branch, cover, hub_radius, spring
 from cadplants.families.valves.valve import Valve, disc_flange
-from cadplants.family import Model
-from cadplants.flange import plate_thickness
-from cadplants.mesh_ops import Solid, merge, moved, tube
-from cadplants.plant import Turning
-from cadplants.primitives import BOTH, along, around, box, cylinder, hexagon, ring, rope, turned
-from cadplants.standards import FLANGES, PIPES, SIZES, sizes_between
-from cadplants.transforms import at, spun
+from cadplants.model.family import Model
+from cadplants.model.plant import Turning
+from cadplants.model.standards import FLANGES, PIPES, SIZES, sizes_between
+from cadplants.parts.flange import plate_thickness
+from cadplants.solids.mesh_ops import Solid, merge, moved, tube
+from cadplants.solids.primitives import BOTH, along, around, box, cylinder, hexagon, ring, rope, turned
+from cadplants.solids.transforms import at, spun
 
 __all__ = ["RELIEFS"]
 

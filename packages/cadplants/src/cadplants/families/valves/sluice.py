@@ -15,11 +15,11 @@ from cadplants.families.valves.actuation_base import STEMS, put_stem
 from cadplants.families.valves.actuation_hand import Handwheel, slab
 from cadplants.families.valves.gate import Resilient
 from cadplants.families.valves.valve import BIG, Valve
-from cadplants.family import Model
-from cadplants.mesh_ops import moved
-from cadplants.polygon import circle, rounded_rectangle
-from cadplants.primitives import BOTH, along, around, box, cylinder, hexagon, ring, turned
-from cadplants.transforms import spun
+from cadplants.model.family import Model
+from cadplants.solids.mesh_ops import moved
+from cadplants.solids.polygon import circle, rounded_rectangle
+from cadplants.solids.primitives import BOTH, along, around, box, cylinder, hexagon, ring, turned
+from cadplants.solids.transforms import spun
 
 __all__ = ["SLUICES"]
 

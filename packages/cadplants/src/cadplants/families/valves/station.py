@@ -16,12 +16,12 @@ from cadplants.families.valves.base import (
 from cadplants.families.valves.drive import Wheel, drive_of, put_spindle
 from cadplants.families.valves.parts import SMALL, bend, chain, square
 from cadplants.families.valves.valve import Valve
-from cadplants.family import Model
-from cadplants.mesh_ops import merge, moved, tube
-from cadplants.plant import Turning
-from cadplants.primitives import BOTH, along, around, ball, box, cylinder, hexagon, ring, rope, turned
-from cadplants.standards import PIPES
-from cadplants.transforms import at, spun
+from cadplants.model.family import Model
+from cadplants.model.plant import Turning
+from cadplants.model.standards import PIPES
+from cadplants.solids.mesh_ops import merge, moved, tube
+from cadplants.solids.primitives import BOTH, along, around, ball, box, cylinder, hexagon, ring, rope, turned
+from cadplants.solids.transforms import at, spun
 
 __all__ = ["STATIONS"]
 

@@ -11,14 +11,14 @@ from cadplants.builder.params import Params, among, between, chance, nested
 from cadplants.builder.table import Table, outline
 from cadplants.families.valves.drive import Wheel, drive_of, put_spindle
 from cadplants.families.valves.valve import Valve
-from cadplants.family import Model
-from cadplants.mesh_ops import Solid, extrude, merge, moved
-from cadplants.modeling_style import ModelingStyle
-from cadplants.plant import Turning
-from cadplants.polygon import circle, rounded_rectangle
-from cadplants.primitives import BOTH, along, box, cylinder, hexagon, ring, rod, turned
-from cadplants.standards import PIPES, sizes_between
-from cadplants.transforms import at
+from cadplants.model.family import Model
+from cadplants.model.plant import Turning
+from cadplants.model.standards import PIPES, sizes_between
+from cadplants.solids.mesh_ops import Solid, extrude, merge, moved
+from cadplants.solids.polygon import circle, rounded_rectangle
+from cadplants.solids.primitives import BOTH, along, box, cylinder, hexagon, ring, rod, turned
+from cadplants.solids.transforms import at
+from cadplants.styles.modeling_style import ModelingStyle
 
 __all__ = ["THREADED", "hex_end"]
 

@@ -19,13 +19,13 @@ from cadplants.families.valves.base import (
 from cadplants.families.valves.body import Packing, neck_of, part_turned, valve_ball
 from cadplants.families.valves.threaded import hex_end
 from cadplants.families.valves.valve import Valve
-from cadplants.family import Model
-from cadplants.mesh_ops import Solid, about_x, merge, moved
-from cadplants.polygon import circle, rounded_rectangle
-from cadplants.primitives import BOTH, along, around, ball, box, cylinder, hexagon, ring
-from cadplants.standards import FACE_TO_FACE, sizes_between
-from cadplants.transforms import at, spun
-from cadplants.valve_body import bore_of
+from cadplants.model.family import Model
+from cadplants.model.standards import FACE_TO_FACE, sizes_between
+from cadplants.parts.valve_body import bore_of
+from cadplants.solids.mesh_ops import Solid, about_x, merge, moved
+from cadplants.solids.polygon import circle, rounded_rectangle
+from cadplants.solids.primitives import BOTH, along, around, ball, box, cylinder, hexagon, ring
+from cadplants.solids.transforms import at, spun
 
 __all__ = ["UNIONS"]
 

@@ -12,16 +12,16 @@ from cadplants.builder.params import among, between, chance, nested
 from cadplants.builder.table import Table, outline
 from cadplants.families.valves.base import LAID
 from cadplants.families.valves.drive import BODY, DiaphragmHead, Wheel, drive_of, put_spindle
-from cadplants.family import Model
-from cadplants.flange import face_shell, nut_room, plate_thickness
-from cadplants.mesh_ops import Solid, about_x, extrude, merge, moved, revolve, weld
-from cadplants.modeling_style import ModelingStyle
-from cadplants.plant import Turning
-from cadplants.polygon import circle, rounded_rectangle
-from cadplants.primitives import along, around, ball, box, cylinder, dome, hexagon, ring, rod, turned
-from cadplants.standards import FACE_TO_FACE, FLANGES, PIPES, SIZES, sizes_between
-from cadplants.transforms import at, spun
-from cadplants.valve_body import bore_of, flipped
+from cadplants.model.family import Model
+from cadplants.model.plant import Turning
+from cadplants.model.standards import FACE_TO_FACE, FLANGES, PIPES, SIZES, sizes_between
+from cadplants.parts.flange import face_shell, nut_room, plate_thickness
+from cadplants.parts.valve_body import bore_of, flipped
+from cadplants.solids.mesh_ops import Solid, about_x, extrude, merge, moved, revolve, weld
+from cadplants.solids.polygon import circle, rounded_rectangle
+from cadplants.solids.primitives import along, around, ball, box, cylinder, dome, hexagon, ring, rod, turned
+from cadplants.solids.transforms import at, spun
+from cadplants.styles.modeling_style import ModelingStyle
 
 __all__ = [
     "VALVE_FAMILIES",

@@ -14,11 +14,11 @@ from cadplants.families.valves.base import (
 from cadplants.families.valves.drive import Wheel
 from cadplants.families.valves.parts import SMALL, bend, cover, hub_radius, threaded_run
 from cadplants.families.valves.valve import Valve, bolt_circle, disc_flange, flanged_body
-from cadplants.family import Model
-from cadplants.flange import plate_thickness
-from cadplants.mesh_ops import merge
-from cadplants.primitives import BOTH, along, around, box, cylinder, hexagon, ring, rod, rope, turned
-from cadplants.standards import sizes_between
+from cadplants.model.family import Model
+from cadplants.model.standards import sizes_between
+from cadplants.parts.flange import plate_thickness
+from cadplants.solids.mesh_ops import merge
+from cadplants.solids.primitives import BOTH, along, around, box, cylinder, hexagon, ring, rod, rope, turned
 
 __all__ = ["VENTS"]
 

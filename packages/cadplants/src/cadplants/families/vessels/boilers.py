@@ -12,11 +12,11 @@ from cadplants.builder.table import Table, outline
 from cadplants.families.vessels.exchangers import equipment_mouth
 from cadplants.families.vessels.radiators import wall_behind
 from cadplants.families.vessels.vessel_fittings import head, sides
-from cadplants.family import Model, Port
-from cadplants.mesh_ops import Solid, extrude, moved
-from cadplants.polygon import rounded_rectangle
-from cadplants.primitives import BOTH, along, around, box, cylinder, dome, hexagon, ring, rod, rope, turned
-from cadplants.transforms import at, spun
+from cadplants.model.family import Model, Port
+from cadplants.solids.mesh_ops import Solid, extrude, moved
+from cadplants.solids.polygon import rounded_rectangle
+from cadplants.solids.primitives import BOTH, along, around, box, cylinder, dome, hexagon, ring, rod, rope, turned
+from cadplants.solids.transforms import at, spun
 
 __all__ = ["BOILERS"]
 

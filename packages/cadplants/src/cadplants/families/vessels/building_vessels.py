@@ -10,11 +10,11 @@ from cadplants.builder.table import Table, outline
 from cadplants.families.vessels.vessel import Tank, apart
 from cadplants.families.vessels.vessel_fittings import Drum, head_height, sides
 from cadplants.families.vessels.vesselbuild import branch, put_vessel
-from cadplants.family import Model
-from cadplants.mesh_ops import Solid, moved, sweep
-from cadplants.polygon import rounded_rectangle
-from cadplants.primitives import BOTH, along, around, box, cylinder, dome, hexagon, ring, rope, turned
-from cadplants.transforms import spun
+from cadplants.model.family import Model
+from cadplants.solids.mesh_ops import Solid, moved, sweep
+from cadplants.solids.polygon import rounded_rectangle
+from cadplants.solids.primitives import BOTH, along, around, box, cylinder, dome, hexagon, ring, rope, turned
+from cadplants.solids.transforms import spun
 
 __all__ = ["BUILDING_VESSELS"]
 

@@ -10,11 +10,11 @@ from cadplants.builder.params import between, chance, several, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.vessels.exchangers import equipment_mouth, frame_of
 from cadplants.families.vessels.vessel_fittings import sides
-from cadplants.family import Model, Port
-from cadplants.mesh_ops import Solid, extrude, merge
-from cadplants.primitives import BOTH, along, around, box, cylinder, hexagon, lofted, rod, turned
-from cadplants.standards import FLANGES
-from cadplants.transforms import at, spun
+from cadplants.model.family import Model, Port
+from cadplants.model.standards import FLANGES
+from cadplants.solids.mesh_ops import Solid, extrude, merge
+from cadplants.solids.primitives import BOTH, along, around, box, cylinder, hexagon, lofted, rod, turned
+from cadplants.solids.transforms import at, spun
 
 __all__ = ["DRY_FILTERS"]
 

@@ -11,14 +11,27 @@ from cadplants.families.valves.valve import bolt_circle, flanged_body
 from cadplants.families.vessels.exchangers import Equipment
 from cadplants.families.vessels.radiators import wall_behind
 from cadplants.families.vessels.vessel import head_profile, nozzle
-from cadplants.family import Model, Port
-from cadplants.flange import nut_room, plate_thickness
-from cadplants.mesh_ops import extrude, merge, moved
-from cadplants.polygon import rounded_rectangle
-from cadplants.primitives import BOTH, CORNERS, along, around, box, cylinder, hexagon, ring, rod, rope, torus, turned
-from cadplants.standards import FLANGES, sizes_between
-from cadplants.transforms import at, looking, spun
-from cadplants.valve_body import bore_of
+from cadplants.model.family import Model, Port
+from cadplants.model.standards import FLANGES, sizes_between
+from cadplants.parts.flange import nut_room, plate_thickness
+from cadplants.parts.valve_body import bore_of
+from cadplants.solids.mesh_ops import extrude, merge, moved
+from cadplants.solids.polygon import rounded_rectangle
+from cadplants.solids.primitives import (
+    BOTH,
+    CORNERS,
+    along,
+    around,
+    box,
+    cylinder,
+    hexagon,
+    ring,
+    rod,
+    rope,
+    torus,
+    turned,
+)
+from cadplants.solids.transforms import at, looking, spun
 
 __all__ = ["EQUIPMENT"]
 

@@ -15,11 +15,11 @@ from cadplants.families.valves.valve import bolt_circle
 from cadplants.families.vessels.vessel_fittings import head, renamed, sides
 from cadplants.families.vessels.vesselbuild import branch
 from cadplants.families.vessels.vesselfeet import SADDLES, Saddle
-from cadplants.family import Model, Part, Port
-from cadplants.mesh_ops import Solid, extrude, merge, moved
-from cadplants.primitives import BOTH, along, around, box, cylinder, hexagon, lofted, ring, rod, rope, turned
-from cadplants.standards import FLANGES, PIPES
-from cadplants.transforms import at, spun
+from cadplants.model.family import Model, Part, Port
+from cadplants.model.standards import FLANGES, PIPES
+from cadplants.solids.mesh_ops import Solid, extrude, merge, moved
+from cadplants.solids.primitives import BOTH, along, around, box, cylinder, hexagon, lofted, ring, rod, rope, turned
+from cadplants.solids.transforms import at, spun
 
 __all__ = ["EXCHANGERS", "Equipment", "equipment_mouth", "feet_of", "frame_of"]
 

@@ -22,11 +22,24 @@ from cadplants.families.vessels.vessel_fittings import (
 )
 from cadplants.families.vessels.vesselbuild import branch
 from cadplants.families.vessels.vesselfeet import FEET, Feet
-from cadplants.family import Model, Port
-from cadplants.mesh_ops import merge, moved
-from cadplants.primitives import BOTH, along, around, box, cylinder, dome, hexagon, ring, rod, rope, torus, turned
-from cadplants.standards import PIPES
-from cadplants.transforms import at, spun
+from cadplants.model.family import Model, Port
+from cadplants.model.standards import PIPES
+from cadplants.solids.mesh_ops import merge, moved
+from cadplants.solids.primitives import (
+    BOTH,
+    along,
+    around,
+    box,
+    cylinder,
+    dome,
+    hexagon,
+    ring,
+    rod,
+    rope,
+    torus,
+    turned,
+)
+from cadplants.solids.transforms import at, spun
 
 __all__ = ["FILTERS"]
 

@@ -13,7 +13,7 @@ from cadplants.families.vessels.radiators import RADIATORS
 from cadplants.families.vessels.separators import SEPARATORS
 from cadplants.families.vessels.storage import STORAGE
 from cadplants.families.vessels.vesselbuild import VESSEL_BUILDS
-from cadplants.family import Family
+from cadplants.model.family import Family
 
 __all__ = ["KINDS_OF_VESSELS"]
 

@@ -14,12 +14,12 @@ from cadplants.families.vessels.vessel import Tank, apart
 from cadplants.families.vessels.vessel_fittings import MANWAYS, Manway, head, head_height, lug, mouth, sides
 from cadplants.families.vessels.vesselbuild import branch
 from cadplants.families.vessels.vesselfeet import bar, ladder
-from cadplants.family import Model, Port
-from cadplants.mesh_ops import Solid, extrude, moved, weld
-from cadplants.mesh_ops import loft as skin
-from cadplants.polygon import rounded_rectangle, section_angle, section_channel, section_i
-from cadplants.primitives import BOTH, along, box, cylinder, hexagon, lofted, ring, rod, rope, turned
-from cadplants.transforms import at, spun
+from cadplants.model.family import Model, Port
+from cadplants.solids.mesh_ops import Solid, extrude, moved, weld
+from cadplants.solids.mesh_ops import loft as skin
+from cadplants.solids.polygon import rounded_rectangle, section_angle, section_channel, section_i
+from cadplants.solids.primitives import BOTH, along, box, cylinder, hexagon, lofted, ring, rod, rope, turned
+from cadplants.solids.transforms import at, spun
 
 __all__ = ["PLATE_TANKS"]
 

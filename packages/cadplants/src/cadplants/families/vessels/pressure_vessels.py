@@ -22,11 +22,11 @@ from cadplants.families.vessels.vessel_fittings import (
 )
 from cadplants.families.vessels.vesselbuild import branch, put_vessel
 from cadplants.families.vessels.vesselfeet import FEET, SADDLES, Feet, Saddle, bar, foot_plate, ladder
-from cadplants.family import Model, Port
-from cadplants.mesh_ops import moved
-from cadplants.polygon import section_channel
-from cadplants.primitives import BOTH, along, around, ball, box, cylinder, ring, rod, rope, torus, turned
-from cadplants.transforms import at, spun
+from cadplants.model.family import Model, Port
+from cadplants.solids.mesh_ops import moved
+from cadplants.solids.polygon import section_channel
+from cadplants.solids.primitives import BOTH, along, around, ball, box, cylinder, ring, rod, rope, torus, turned
+from cadplants.solids.transforms import at, spun
 
 __all__ = ["PRESSURE_VESSELS"]
 

@@ -10,11 +10,11 @@ from cadplants.builder.params import among, between, chance, several, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.vessels.exchangers import Equipment, equipment_mouth
 from cadplants.families.vessels.vessel_fittings import sides
-from cadplants.family import Model, Part, Port
-from cadplants.mesh_ops import Solid, extrude, merge, moved
-from cadplants.polygon import rounded_rectangle
-from cadplants.primitives import BOTH, along, around, box, cylinder, hexagon, lofted, ring, rod, rope, turned
-from cadplants.transforms import at, spun
+from cadplants.model.family import Model, Part, Port
+from cadplants.solids.mesh_ops import Solid, extrude, merge, moved
+from cadplants.solids.polygon import rounded_rectangle
+from cadplants.solids.primitives import BOTH, along, around, box, cylinder, hexagon, lofted, ring, rod, rope, turned
+from cadplants.solids.transforms import at, spun
 
 __all__ = ["RADIATORS", "wall_behind"]
 

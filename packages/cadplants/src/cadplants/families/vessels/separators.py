@@ -22,13 +22,26 @@ from cadplants.families.vessels.vessel_fittings import (
     sides,
 )
 from cadplants.families.vessels.vesselfeet import FEET, SADDLES, Feet, Saddle
-from cadplants.family import Model, Port
-from cadplants.flange import nut_room, plate_thickness
-from cadplants.mesh_ops import Solid, extrude, merge, moved
-from cadplants.polygon import rounded_rectangle
-from cadplants.primitives import BOTH, along, around, box, cylinder, dome, hexagon, lofted, ring, rod, rope, turned
-from cadplants.standards import FLANGES, sizes_between
-from cadplants.transforms import at, spun
+from cadplants.model.family import Model, Port
+from cadplants.model.standards import FLANGES, sizes_between
+from cadplants.parts.flange import nut_room, plate_thickness
+from cadplants.solids.mesh_ops import Solid, extrude, merge, moved
+from cadplants.solids.polygon import rounded_rectangle
+from cadplants.solids.primitives import (
+    BOTH,
+    along,
+    around,
+    box,
+    cylinder,
+    dome,
+    hexagon,
+    lofted,
+    ring,
+    rod,
+    rope,
+    turned,
+)
+from cadplants.solids.transforms import at, spun
 
 __all__ = ["SEPARATORS"]
 

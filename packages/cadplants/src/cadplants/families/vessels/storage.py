@@ -22,11 +22,11 @@ from cadplants.families.vessels.vessel_fittings import (
 )
 from cadplants.families.vessels.vesselbuild import branch
 from cadplants.families.vessels.vesselfeet import FEET, Feet, foot_plate, ladder, ringed_rail
-from cadplants.family import Model, Port
-from cadplants.mesh_ops import Solid, merge, moved, revolve, sweep, weld
-from cadplants.polygon import circle, rounded_rectangle
-from cadplants.primitives import BOTH, along, around, box, cylinder, lofted, ring, rod, rope, torus, turned
-from cadplants.transforms import at, spun
+from cadplants.model.family import Model, Port
+from cadplants.solids.mesh_ops import Solid, merge, moved, revolve, sweep, weld
+from cadplants.solids.polygon import circle, rounded_rectangle
+from cadplants.solids.primitives import BOTH, along, around, box, cylinder, lofted, ring, rod, rope, torus, turned
+from cadplants.solids.transforms import at, spun
 
 __all__ = ["STORAGE"]
 

@@ -9,14 +9,14 @@ from cadplants.builder.draws import made
 from cadplants.builder.params import Params, among, between, chance, given, nested, several, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.valves.valve import bolt_circle, disc_flange
-from cadplants.family import Model, Part, Port, placed
-from cadplants.flange import plate_thickness
-from cadplants.mesh_ops import Solid, extrude, merge, moved, revolve, weld
-from cadplants.modeling_style import ModelingStyle
-from cadplants.polygon import circle, rounded_rectangle
-from cadplants.primitives import BOTH, along, around, ball, box, cylinder, hexagon, ring, rod, rope, turned
-from cadplants.standards import FLANGES, PIPES
-from cadplants.transforms import at, looking, spun
+from cadplants.model.family import Model, Part, Port, placed
+from cadplants.model.standards import FLANGES, PIPES
+from cadplants.parts.flange import plate_thickness
+from cadplants.solids.mesh_ops import Solid, extrude, merge, moved, revolve, weld
+from cadplants.solids.polygon import circle, rounded_rectangle
+from cadplants.solids.primitives import BOTH, along, around, ball, box, cylinder, hexagon, ring, rod, rope, turned
+from cadplants.solids.transforms import at, looking, spun
+from cadplants.styles.modeling_style import ModelingStyle
 
 __all__ = ["VESSELS", "Tank", "apart", "head_profile", "level_gauge", "nozzle"]
 

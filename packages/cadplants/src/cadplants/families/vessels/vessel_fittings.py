@@ -12,14 +12,14 @@ from cadplants.builder.params import Params, among, between, chance
 from cadplants.builder.table import Table, outline
 from cadplants.families.valves.valve import bolt_circle, disc_flange
 from cadplants.families.vessels.vessel import head_profile
-from cadplants.family import Part
-from cadplants.flange import nut_room, plate_thickness
-from cadplants.mesh_ops import Solid, extrude, merge, moved, revolve, weld
-from cadplants.modeling_style import ModelingStyle
-from cadplants.polygon import circle, rounded_rectangle
-from cadplants.primitives import along, around, box, cylinder, dome, hexagon, ring, rod, rope, torus, turned
-from cadplants.standards import FLANGES, PIPES
-from cadplants.transforms import at, spun
+from cadplants.model.family import Part
+from cadplants.model.standards import FLANGES, PIPES
+from cadplants.parts.flange import nut_room, plate_thickness
+from cadplants.solids.mesh_ops import Solid, extrude, merge, moved, revolve, weld
+from cadplants.solids.polygon import circle, rounded_rectangle
+from cadplants.solids.primitives import along, around, box, cylinder, dome, hexagon, ring, rod, rope, torus, turned
+from cadplants.solids.transforms import at, spun
+from cadplants.styles.modeling_style import ModelingStyle
 
 __all__ = [
     "MANWAYS", "Drum", "Manway", "bent", "capped", "fall", "handle", "head", "head_height", "lug", "mouth",

@@ -27,10 +27,10 @@ from cadplants.families.vessels.vessel_fittings import (
     sides,
 )
 from cadplants.families.vessels.vesselfeet import FEET, SADDLES, Feet, Saddle
-from cadplants.family import Model, Port
-from cadplants.primitives import cylinder, ring
-from cadplants.standards import FLANGES
-from cadplants.transforms import at, looking, spun
+from cadplants.model.family import Model, Port
+from cadplants.model.standards import FLANGES
+from cadplants.solids.primitives import cylinder, ring
+from cadplants.solids.transforms import at, looking, spun
 
 __all__ = ["VESSEL_BUILDS", "branch", "put_vessel"]
 

@@ -11,12 +11,12 @@ from cadplants.builder.params import Params, among, between, chance, given, whol
 from cadplants.builder.table import Table, outline
 from cadplants.families.vessels.vessel import apart
 from cadplants.families.vessels.vessel_fittings import Drum, wrapped
-from cadplants.family import Part
-from cadplants.mesh_ops import Solid, extrude, merge, moved, revolve, sweep, weld
-from cadplants.modeling_style import ModelingStyle
-from cadplants.polygon import rounded_rectangle, section_angle, section_channel, section_i
-from cadplants.primitives import BOTH, around, box, cylinder, hexagon, ring, rod, torus
-from cadplants.transforms import at, spun
+from cadplants.model.family import Part
+from cadplants.solids.mesh_ops import Solid, extrude, merge, moved, revolve, sweep, weld
+from cadplants.solids.polygon import rounded_rectangle, section_angle, section_channel, section_i
+from cadplants.solids.primitives import BOTH, around, box, cylinder, hexagon, ring, rod, torus
+from cadplants.solids.transforms import at, spun
+from cadplants.styles.modeling_style import ModelingStyle
 
 __all__ = ["FEET", "SADDLES", "Feet", "Saddle", "bar", "foot_plate", "ladder", "ringed_rail"]
 

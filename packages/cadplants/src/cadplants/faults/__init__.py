@@ -1,0 +1,1 @@
+"""What others do to plants: gaps, overlaps, missing parts, other triangles."""

@@ -1,0 +1,1 @@
+"""Runs of pipe: their routes, what sits in them and on them, and their truth."""

@@ -1,0 +1,1 @@
+"""What a plant is: components, units, contacts, families of devices, standard sizes."""

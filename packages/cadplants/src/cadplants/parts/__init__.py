@@ -1,0 +1,1 @@
+"""What presets are built of: flanges, bolts, pipe, valves, gauges, pumps, vessels, steel."""

@@ -1,0 +1,1 @@
+"""Whole plants: the presets, random assortments, single devices."""

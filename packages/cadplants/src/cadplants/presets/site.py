@@ -1,0 +1,118 @@
+"""A plant as it grows: what has been put up so far, and what touches what."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from cadplants.faults.defects import loosen
+from cadplants.lines.layout import Laid, Run, lay
+from cadplants.model.plant import Assembly, Plant, gather
+from cadplants.parts.fastener import pipe_support
+from cadplants.solids.transforms import spun
+from cadplants.styles.modeling_style import ModelingStyle
+
+__all__ = ["Placed", "Site"]
+
+
+@dataclass(frozen=True)
+class Placed:
+    """A run that stands on a site.
+
+    Args:
+        laid: the run.
+        start: index of its first component on the site.
+    """
+
+    laid: Laid
+    start: int
+
+    def at(self, s: float) -> int:
+        """Index on the site of the pipe at a chainage."""
+        return self.start + self.laid.at(s)
+
+    def device(self, node: str) -> int:
+        """Index on the site of the first component of an inline device."""
+        return self.start + self.laid.devices[node]
+
+
+@dataclass
+class Site:
+    """Collects assemblies for one plant.
+
+    Args:
+        cluster: name of the connected structure that new components belong to.
+    """
+
+    cluster: str = ""
+    count: int = 0
+    _parts: list[Assembly] = field(default_factory=list)
+    _joints: list[tuple[int, int]] = field(default_factory=list)
+
+    def add(self, assembly: Assembly, on: int | None = None, foot: int = 0) -> int:
+        """Puts up an assembly and returns the index of its first component.
+
+        Args:
+            assembly: in the site's coordinates.
+            on: component that it touches.
+            foot: which of its own components touches that.
+        """
+        first = self.count
+        self._parts.append(assembly.marked(cluster=self.cluster))
+        self.count += len(assembly.components)
+        if on is not None:
+            self.join(on, first + foot)
+        return first
+
+    def join(self, a: int, b: int) -> None:
+        """Records that two components touch."""
+        self._joints.append((a, b))
+
+    def lay(self, run: Run, style: ModelingStyle, first: Sequence[int] = (), last: Sequence[int] = ()) -> Placed:
+        """Lays a run between components that it touches at its ends."""
+        laid = lay(run, style)
+        start = self.add(laid.assembly)
+        for outside, inside in ((first, laid.first), (last, laid.last)):
+            for a in outside:
+                for b in inside:
+                    self.join(a, start + b)
+        return Placed(laid, start)
+
+    def support(self, placed: Placed, s: float, carrier: int, style: ModelingStyle, roll: float = 0.0) -> int:
+        """Holds a run by a U-bolt on a bracket.
+
+        Args:
+            placed: the run.
+            s: chainage, on a pipe.
+            carrier: component that the bracket is welded to.
+            style: that models it.
+            roll: of the carrier about the run [rad]; 0 below it (-z of the run's frame).
+
+        Returns:
+            Index of the bracket; the U-bolt follows it.
+        """
+        run = placed.laid.run
+        # The bracket looks for its carrier at +y; a quarter turn brings that to -z.
+        pose = run.route.frame(s, roll) @ spun("x", -np.pi / 2)
+        first = self.add(pipe_support(run.dn_at(s), style).placed(pose), carrier)
+        self.join(placed.at(s), first)
+        self.join(placed.at(s), first + 1)
+        return first
+
+    def plant(self, name: str, seed: int, style: ModelingStyle) -> Plant:
+        """The finished plant, with the gaps and unevenness of its style."""
+        whole = loosen(gather(self._parts, self._joints), style, seed).marked(style=style.name)
+        return Plant(
+            whole.components,
+            whole.contacts,
+            whole.units,
+            whole.points,
+            whole.connections,
+            whole.lines,
+            name=name,
+            seed=seed,
+            styles=(style.name,),
+            looseness=style.looseness,
+        )

@@ -1,0 +1,1 @@
+"""How plants are modelled: published styles, styles drawn at random, the manners of authoring systems."""
