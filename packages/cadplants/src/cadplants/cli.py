@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from cadplants.faults.defects import Defects
     from cadplants.model.family import Family
     from cadplants.writers.plant_file import FileStyle
+    from cadplants.writers.usd_style import UsdStyle
 
 __all__ = ["plants"]
 
@@ -83,7 +84,7 @@ def make_plant(
     sins: Annotated[bool, typer.Option("--sins", hidden=True)] = False,
 ) -> None:
     """Generate a plant as an authoring system would write it, and its ground truth beside it."""
-    from cadplants import UsdStyle, draw_defects, draw_style, make
+    from cadplants import draw_defects, make
     from cadplants.writers import format_of, write_plant
 
     renamed = {"--hand": ("--style", hand), "--spoilt": ("--defective", spoilt), "--sins": ("--defects", sins)}
@@ -91,30 +92,35 @@ def make_plant(
         if given_so:
             err.print(f"[dim]{old} is deprecated; use {new}[/]")
     style, defective, defects = style or hand, defective or spoilt, defects or sins
-    given: dict[str, Any] = {"meters_per_unit": unit, "up_axis": up, "instances": instances, "polygons": polygons}
-    for name, value, choices in (
-        ("--up", up, ("Y", "Z")),
-        ("--instances", instances, ("none", "native", "nested", "point", "mixed")),
-        ("--layout", layout, ("nodes", "merged")),
-    ):
-        if value is not None and value not in choices:
-            raise ValueError(f"{name} {value}: give {', '.join(choices[:-1])} or {choices[-1]}")
-    # Written so that NaN fails it too.
-    if unit is not None and not 1e-6 <= unit <= 1e3:
-        raise ValueError(f"--unit {unit:g}: give the length of one authored unit in metres, from 1e-06 to 1000")
+    given = {"meters_per_unit": unit, "up_axis": up, "instances": instances, "polygons": polygons}
     told = {"layout": layout, "wrong_classes": wrong_classes, "missing_names": missing_names}
-    if format_of(output, form).name == "usd":
-        _refuse(told, "usd")
-        usual = draw_style(seed) if defects else UsdStyle()
-        authoring: UsdStyle | FileStyle = replace(
-            usual, **{k: value for k, value in given.items() if value is not None}
-        )
-    else:
-        _refuse({"instances": given.pop("instances"), "polygons": given.pop("polygons")}, format_of(output, form).name)
-        authoring = _file_style(given, told)
+    authoring = _authoring(format_of(output, form).name, given, told, seed if defects else None)
     plant = make(preset, seed, style, draw_defects(seed) if defects else _asked_for(drawn, defective))
     truth = write_plant(plant, output, authoring, form)
     out.print(f"wrote {escape(str(output))} and {escape(str(truth))}")
+
+
+def _authoring(form: str, given: dict[str, Any], told: dict[str, Any], seed: int | None) -> UsdStyle | FileStyle:
+    """How a file is written: what is given of it, the rest as usual or, of USD, drawn by a seed."""
+    import cadplants
+
+    for name, value, choices in (
+        ("--up", given["up_axis"], ("Y", "Z")),
+        ("--instances", given["instances"], ("none", "native", "nested", "point", "mixed")),
+        ("--layout", told["layout"], ("nodes", "merged")),
+    ):
+        if value is not None and value not in choices:
+            raise ValueError(f"{name} {value}: give {', '.join(choices[:-1])} or {choices[-1]}")
+    unit = given["meters_per_unit"]
+    # Written so that NaN fails it too.
+    if unit is not None and not 1e-6 <= unit <= 1e3:
+        raise ValueError(f"--unit {unit:g}: give the length of one authored unit in metres, from 1e-06 to 1000")
+    if form == "usd":
+        _refuse(told, form)
+        usual = cadplants.UsdStyle() if seed is None else cadplants.draw_style(seed)
+        return replace(usual, **{name: value for name, value in given.items() if value is not None})
+    _refuse({"instances": given.pop("instances"), "polygons": given.pop("polygons")}, form)
+    return _file_style(given, told)
 
 
 def _refuse(settings: dict[str, Any], form: str) -> None:
