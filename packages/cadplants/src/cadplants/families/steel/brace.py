@@ -449,10 +449,12 @@ class _Plate(Params):
             t.at(0, 0, thick / 2).add(self.called, solid, of="clamp")
             return
         x, y = half
+        # Its holes stay within it, however few sides it has.
+        sides = max(8 if self.drilled else 3, few_sides(t.style, y, 40))
         shape = {
             "plain": rounded_rectangle(a, b, 0.3 * c if self.rounded else 0.0, 3),
             "clipped": np.array([[-x, -y], [x - c, -y], [x, c - y], [x, y], [c - x, y], [-x, y - c]]),
-            "round": circle(y, few_sides(t.style, y, 40)),
+            "round": circle(y, sides),
             "cut off": np.array([[-x, -y], [x, -y], [x, -0.1 * b], [-0.1 * a, y], [-x, y]]),
         }[self.form]
         spots = [(sx * 0.28 * a, sy * 0.28 * b) for sx, sy in CORNERS]
