@@ -10,6 +10,7 @@ from cadplants.builder.params import (
     among,
     between,
     chance,
+    given,
     nested,
     several,
     styled,
@@ -82,6 +83,26 @@ def test_text_is_understood_and_pieces_have_names_of_their_own():
     one = Coil.draw(Apart(1), loops="2", valve="yes", **{"knob.radius": "0.03"})
     assert (one.loops, one.valve, one.knob.radius) == (2, True, 0.03)
     assert one.knob.lobes == Coil.draw(Apart(1), valve=True).knob.lobes
+
+
+class Handle(Params):
+    size: float = given(0.1, "reach", "m")
+    make: str = among(("lever", "wheel"), "how it is made")
+    spokes: int = whole(3, 6, "spokes", when=lambda p: p.make == "wheel")
+    wide: float = between(0.1, 0.2, "width / reach")
+
+
+class Handled(Params):
+    handle: Handle = nested(lambda source, _: Handle.draw(source, {"size": 0.3}), "handle")
+
+
+def test_what_is_set_of_a_piece_brings_with_it_what_follows_from_that():
+    for seed in range(8):
+        plain = Handled.draw(Apart(seed)).handle
+        lever, wheel = (Handled.draw(Apart(seed), **{"handle.make": make}).handle for make in ("lever", "wheel"))
+        assert (lever.spokes, wheel.spokes in range(3, 7)) == (0, True)
+        assert plain == (lever if plain.make == "lever" else wheel)
+        assert {(one.size, one.wide) for one in (plain, lever, wheel)} == {(0.3, plain.wide)}
 
 
 @pytest.mark.parametrize(
