@@ -63,7 +63,7 @@ class FilterBowl(Valve, name="pressure reducing valve/filter bowl", sizes=SMALL)
         up.add("valve bonnet", turned(hood, n))
         if self.top == "knob":
             knob = outline(0.8 * w, -0.002, 0.9 * w, 0.1 * w, 0.9 * w, 0.6 * w, 0.7 * w, 0.75 * w)
-            end.add("handwheel", turned(knob, max(8, n)), turns=Turning("handwheel"))
+            end.add("handwheel", turned(knob, max(8, n)))
         elif self.top == "screw":
             end.add("valve stem", cylinder(0.12 * w, -0.002, 0.7 * w, 8), hexagon(0.4 * w, 0, 0.2 * w))
         marks = (

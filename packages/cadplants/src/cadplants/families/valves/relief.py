@@ -13,7 +13,6 @@ from cadplants.families.valves.base import (
 from cadplants.families.valves.parts import MID, bend, branch, cover, hub_radius, spring
 from cadplants.families.valves.valve import Valve, disc_flange
 from cadplants.model.family import Model
-from cadplants.model.plant import Turning
 from cadplants.model.standards import FLANGES, PIPES, SIZES, sizes_between
 from cadplants.parts.flange import plate_thickness
 from cadplants.solids.mesh_ops import Solid, merge, moved, tube
@@ -44,7 +43,7 @@ class Cap(Params):
             pin.add("valve stem", cylinder(0.07 * w, -0.34 * w, 0.34 * w, 8))
             ways = ((-0.5 * w, 1.3 * tall), (0.5 * long, 1.2 * tall), (0.7 * long, -0.3 * long))
             arm = rope(bend([(0, side * y, z) for y, z in ways], 0.12 * long), 0.13 * w, 8)
-            t.add("lever", arm, turns=Turning("lever", (1.0, 0.0, 0.0), (0.0, -side * 0.35 * w, 1.3 * tall)))
+            t.add("lever", arm)
             return
         z = 0.65 * tall
         t.add("valve bonnet", stout, along("x", cylinder(0.3 * w, 0.2 * w, 0.7 * w, 12), 0, 0, z))
@@ -52,7 +51,7 @@ class Cap(Params):
         shaft.add("valve stem", cylinder(0.1 * w, 0.4 * w, 1.05 * w, 8))
         shaft.add("gland", hexagon(0.4 * w, 0.7 * w, 0.82 * w))
         arm = box((0.12 * w, long, 0.35 * w), (0.95 * w, side * 0.44 * long, z))
-        t.add("lever", arm, turns=Turning("lever", (1.0, 0.0, 0.0), (0.0, 0.0, z)))
+        t.add("lever", arm)
 
 
 class _Safety(Valve, place="head", sizes=MID):
@@ -247,8 +246,7 @@ class WaterHeater(Valve, name="relief valve/water heater", place="tap"):
         up.add("valve bonnet", turned(dome, n))
         up.add("valve stem", cylinder(0.25 * r, high - 0.002, high + 1.0 * r, 8))
         flap = up.at(0, 0, high + 0.7 * r).spun("x", self.tilt)
-        turning = Turning("lever", (1.0, 0.0, 0.0))
-        flap.add("lever", box((0.9 * r, 4.2 * r, 0.16 * r), (0, 1.3 * r, 0)), turns=turning)
+        flap.add("lever", box((0.9 * r, 4.2 * r, 0.16 * r), (0, 1.3 * r, 0)))
         return t.model(kind="relief valve")
 
 

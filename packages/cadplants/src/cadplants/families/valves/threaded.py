@@ -228,11 +228,10 @@ class ThreadedRelief(Valve, name="relief valve/threaded", place="tap"):
         up.add("valve bonnet", turned(outline(0.85 * b, 0, 0.75 * b, tall), n), hexagon(1.7 * b, 0, 0.4 * b))
         if self.knob:
             knob = outline(0.9 * b, tall, 1.0 * b, tall + 0.3 * b, 0.95 * b, tall + b)
-            up.add("handwheel", turned(knob, max(8, n)), turns=Turning("handwheel"))
+            up.add("handwheel", turned(knob, max(8, n)))
         else:
             arm = rod((0, -0.2 * b, tall), (0, 2.4 * b, 0.8 * tall), 0.15 * b, 8)
-            turning = Turning("lever", (1.0, 0.0, 0.0), (0.0, -0.2 * b, tall))
-            up.add("lever", arm, cylinder(0.4 * b, tall, tall + 0.5 * b, n), turns=turning)
+            up.add("lever", arm, cylinder(0.4 * b, tall, tall + 0.5 * b, n))
         return t.model(kind="relief valve")
 
 

@@ -13,7 +13,6 @@ from cadplants.builder.table import Table, outline
 from cadplants.families.valves.base import LAID
 from cadplants.families.valves.drive import BODY, DiaphragmHead, Wheel, drive_of, put_spindle
 from cadplants.model.family import Model
-from cadplants.model.plant import Turning
 from cadplants.model.standards import FACE_TO_FACE, FLANGES, PIPES, SIZES, sizes_between
 from cadplants.parts.flange import face_shell, nut_room, plate_thickness
 from cadplants.parts.valve_body import bore_of, flipped
@@ -519,7 +518,7 @@ class Relief(Valve, name="relief valve/spring", sizes=MID, place="head", weight=
         t.add("bolt", about_x(bolts))
         if self.levered:
             pin, tip = (low + 1.2 * tall, 0.0, 0.3 * b), (low + 0.75 * tall, 0.0, 1.6 * b)
-            t.add("lever", rod(pin, tip, 0.1 * b, 8), turns=Turning("lever", (0.0, -1.0, 0.0), pin))
+            t.add("lever", rod(pin, tip, 0.1 * b, 8))
         return t.model(kind="relief valve")
 
 
