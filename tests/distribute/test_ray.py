@@ -57,6 +57,7 @@ def test_a_site_is_built_on_several_nodes_to_the_same_byte(cluster, tmp_path, ca
     assert capfd.readouterr() == ("", "")
 
 
+@pytest.mark.long
 def test_a_worker_that_is_killed_costs_another_try_and_one_that_always_ends_is_told(cluster, tmp_path, capfd):
     shares, seen = [], {}
     with RayHands(cluster.address, tmp_path) as hands:
