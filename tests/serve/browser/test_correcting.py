@@ -170,18 +170,19 @@ def put(page, row):
     """Selects a part and clicks another label for it, the second one that is offered; which."""
     page.js("row => cadgraph.store.select([row])", row)
     page.by("guess").nth(1).click()
-    return offered(page, row)[1][1]
+    return offered(page)[row][1][1]
 
 
-def offered(page, row):
-    """What a part may be, as the page offers it: what is of no group of the vocabulary is no label to choose."""
-    groups = range(len(page.content["groups"]))
-    return [guess for guess in page.parts["guesses"][row] if guess[0] in groups]
+def offered(page):
+    """What each part may be, as the page offers it: what is of no group of the vocabulary is no label to choose."""
+    content = page.content
+    groups = range(len(content["groups"]))
+    return [[guess for guess in guesses if guess[0] in groups] for guesses in content["parts"]["guesses"]]
 
 
 def test_of_two_windows_the_slower_one_is_told_and_both_corrections_stay(page, server, window):
     parts = page.parts
-    rows = {parts["shape"][row]: row for row in range(len(parts["id"])) if len(offered(page, row)) > 1}
+    rows = {parts["shape"][row]: row for row, guesses in enumerate(offered(page)) if len(guesses) > 1}
     first, second, third = list(rows.values())[:3]
     with window(server.address) as other:
         other.ready()
