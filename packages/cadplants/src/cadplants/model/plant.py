@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from itertools import combinations
 from typing import Any
 
@@ -13,6 +13,7 @@ import numpy.typing as npt
 from cadgraph.model.scene import Floats, Scene
 from cadplants.solids.mesh_ops import Solid, moved
 from cadplants.solids.transforms import IDENTITY
+from cadplants.styles.modeling_style import ModelingStyle
 
 __all__ = [
     "RGB",
@@ -321,6 +322,21 @@ class Plant(Assembly):
     duplicates: tuple[tuple[int, int], ...] = ()
     hidden: tuple[int, ...] = ()
     colors: str = "own"
+
+    @classmethod
+    def of(cls, whole: Assembly, name: str, seed: int, styles: Iterable[ModelingStyle]) -> Plant:
+        """A finished plant of what was built in some styles.
+
+        Args:
+            whole: all of it.
+            name: of the preset.
+            seed: that it was made from.
+            styles: in it, the main one first.
+        """
+        built = {one.name: getattr(whole, one.name) for one in fields(Assembly)}
+        used = tuple(styles)
+        names, looseness = tuple(dict.fromkeys(style.name for style in used)), max(style.looseness for style in used)
+        return cls(**built, name=name, seed=seed, styles=names, looseness=looseness)
 
     @property
     def n_meshes(self) -> int:

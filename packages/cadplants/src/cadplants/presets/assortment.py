@@ -8,9 +8,9 @@ modelled and by what style is drawn anew for each plant and each device.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from functools import partial
-from typing import Any, TypeVar
+from typing import TypeVar
 
 import numpy as np
 
@@ -98,16 +98,7 @@ def make_assortment(
             break
     if plant.of("ground").rng.random() < _GROUND:
         parts.append(_ground(gather(parts), main))
-    whole = gather(parts)
-    given: dict[str, Any] = {one.name: getattr(whole, one.name) for one in fields(whole)}
-    looseness = max(style.looseness for style in plant.whole.used)
-    return Plant(
-        **given,
-        name="assortment",
-        seed=seed,
-        styles=tuple(style.name for style in plant.whole.used),
-        looseness=looseness,
-    )
+    return Plant.of(gather(parts), "assortment", seed, plant.whole.used)
 
 
 def _check_names(without: frozenset[str]) -> None:

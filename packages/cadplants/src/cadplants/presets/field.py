@@ -82,19 +82,7 @@ def make_field(seed: int = 0, style: ModelingStyle | None = None) -> Plant:
     )
     count = len(whole.components)
     whole = gather([whole, Assembly((slab,))], [(i, count) for i in standing])
-    styles = tuple(dict.fromkeys([*used, main]))
-    return Plant(
-        whole.components,
-        whole.contacts,
-        whole.units,
-        whole.points,
-        whole.connections,
-        whole.lines,
-        name="field",
-        seed=seed,
-        styles=tuple(dict.fromkeys(one.name for one in styles)),
-        looseness=max(one.looseness for one in styles),
-    )
+    return Plant.of(whole, "field", seed, [*used, main])
 
 
 def _inside(style: ModelingStyle, flips: tuple[int, int], rng: np.random.Generator) -> list[Assembly]:

@@ -16,7 +16,7 @@ from cadplants.parts.brand import Brand, draw_brand, dressed
 from cadplants.parts.fastener import SUPPORT_REACH
 from cadplants.parts.pump import Pump, pump
 from cadplants.parts.structure import post
-from cadplants.presets.site import Placed, Site
+from cadplants.presets.site import Placed, Site, Work
 from cadplants.solids.mesh_ops import Solid, box
 from cadplants.solids.transforms import at
 from cadplants.styles.modeling_style import ModelingStyle
@@ -110,28 +110,14 @@ def _draw(rng: np.random.Generator) -> _Plan:
 
 
 @dataclass(frozen=True)
-class _Work:
+class _Work(Work[_Plan]):
     """What every piece of the loop is built with.
 
     Args:
-        site: where it goes.
-        style: how it is modelled.
-        choice: of the looks of valves and gauges.
-        plan: of the proportions.
-        rng: of what varies besides.
         back_z: height of the return's axis [m].
     """
 
-    site: Site
-    style: ModelingStyle
-    choice: Choice
-    plan: _Plan
-    rng: np.random.Generator
     back_z: float
-
-    def needle(self) -> float:
-        """Where the needle of a gauge points [rad]."""
-        return float(self.rng.uniform(0.6, 2.6))
 
 
 def make_loop(seed: int = 0, style: ModelingStyle | None = None) -> Plant:

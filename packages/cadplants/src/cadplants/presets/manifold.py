@@ -15,7 +15,7 @@ from cadplants.model.standards import PIPES, TEE_CENTER_TO_END
 from cadplants.parts.brand import Brand, draw_brand, dressed
 from cadplants.parts.fastener import SUPPORT_REACH
 from cadplants.parts.structure import post
-from cadplants.presets.site import Placed, Site
+from cadplants.presets.site import Placed, Site, Work
 from cadplants.solids.transforms import at
 from cadplants.styles.modeling_style import ModelingStyle
 
@@ -81,27 +81,7 @@ def _draw(rng: np.random.Generator) -> _Plan:
     )
 
 
-@dataclass(frozen=True)
-class _Work:
-    """What every piece of the manifold is built with.
-
-    Args:
-        site: where it goes.
-        style: how it is modelled.
-        choice: of the looks of valves and gauges.
-        plan: of the proportions.
-        rng: of what varies besides.
-    """
-
-    site: Site
-    style: ModelingStyle
-    choice: Choice
-    plan: _Plan
-    rng: np.random.Generator
-
-    def needle(self) -> float:
-        """Where the needle of a gauge points [rad]."""
-        return float(self.rng.uniform(0.6, 2.6))
+_Work = Work[_Plan]
 
 
 def make_manifold(seed: int = 0, style: ModelingStyle | None = None) -> Plant:

@@ -103,12 +103,4 @@ def make_device(
     unit = "X-1" if family.unit else ""
     made = as_device(family, model, style, unit).assembly if family.place == "inline" else None
     assembly = met(made or as_assembly(family, model, style, unit)).marked(cluster="device", style=style.name)
-    return Plant(
-        assembly.components,
-        assembly.contacts,
-        assembly.units,
-        name=name,
-        seed=seed,
-        styles=(style.name,),
-        looseness=style.looseness,
-    )
+    return Plant.of(assembly, name, seed, [style])

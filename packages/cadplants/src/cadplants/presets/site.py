@@ -4,17 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from typing import Generic, TypeVar
 
 import numpy as np
 
 from cadplants.faults.defects import loosen
+from cadplants.lines.choice import Choice
 from cadplants.lines.layout import Laid, Run, lay
 from cadplants.model.plant import Assembly, Plant, gather
 from cadplants.parts.fastener import pipe_support
 from cadplants.solids.transforms import spun
 from cadplants.styles.modeling_style import ModelingStyle
 
-__all__ = ["Placed", "Site"]
+__all__ = ["Placed", "Site", "Work"]
 
 
 @dataclass(frozen=True)
@@ -104,15 +106,30 @@ class Site:
     def plant(self, name: str, seed: int, style: ModelingStyle) -> Plant:
         """The finished plant, with the gaps and unevenness of its style."""
         whole = loosen(gather(self._parts, self._joints), style, seed).marked(style=style.name)
-        return Plant(
-            whole.components,
-            whole.contacts,
-            whole.units,
-            whole.points,
-            whole.connections,
-            whole.lines,
-            name=name,
-            seed=seed,
-            styles=(style.name,),
-            looseness=style.looseness,
-        )
+        return Plant.of(whole, name, seed, [style])
+
+
+P = TypeVar("P")
+
+
+@dataclass(frozen=True)
+class Work(Generic[P]):
+    """What every piece of a plant is built with.
+
+    Args:
+        site: where it goes.
+        style: how it is modelled.
+        choice: of the looks of valves and gauges.
+        plan: of the proportions.
+        rng: of what varies besides.
+    """
+
+    site: Site
+    style: ModelingStyle
+    choice: Choice
+    plan: P
+    rng: np.random.Generator
+
+    def needle(self) -> float:
+        """Where the needle of a gauge points [rad]."""
+        return float(self.rng.uniform(0.6, 2.6))

@@ -22,7 +22,7 @@ from cadplants.parts.fastener import SUPPORT_REACH
 from cadplants.parts.pump import Pump, pump
 from cadplants.parts.structure import post
 from cadplants.parts.vessel import Nozzle, Tank, tank
-from cadplants.presets.site import Placed, Site
+from cadplants.presets.site import Placed, Site, Work
 from cadplants.solids.mesh_ops import box
 from cadplants.solids.transforms import at
 from cadplants.styles.modeling_style import ModelingStyle
@@ -85,23 +85,7 @@ def _draw(rng: np.random.Generator) -> _Plan:
     )
 
 
-@dataclass(frozen=True)
-class _Work:
-    """What every piece of the station is built with.
-
-    Args:
-        site: where it goes.
-        style: how it is modelled.
-        choice: of the looks of valves and gauges.
-        plan: of the proportions.
-        rng: of what varies besides.
-    """
-
-    site: Site
-    style: ModelingStyle
-    choice: Choice
-    plan: _Plan
-    rng: np.random.Generator
+_Work = Work[_Plan]
 
 
 def make_station(seed: int = 0, style: ModelingStyle | None = None, marks: Marks | None = None) -> Plant:
