@@ -93,7 +93,7 @@ class Handle(Params):
 
 
 class Handled(Params):
-    handle: Handle = nested(lambda source, _: Handle.draw(source, {"size": 0.3}), "handle")
+    handle: Handle = nested(lambda source, before: Handle, "handle", fixed=lambda _: {"size": 0.3})
 
 
 def test_what_is_set_of_a_piece_brings_with_it_what_follows_from_that():

@@ -8,9 +8,9 @@ from typing import Any, TypeVar, cast
 
 import numpy as np
 
-from cadplants.builder.params import Params, When, among
+from cadplants.builder.params import Params, Source, When, among
 
-__all__ = ["made", "number", "of_form", "of_makes", "one_of", "yes"]
+__all__ = ["made", "number", "of_form", "of_makes", "one_of", "own_stream", "yes"]
 
 Rng = np.random.Generator
 T = TypeVar("T")
@@ -35,6 +35,11 @@ def one_of(*items: T) -> Callable[[Rng, Any], T]:
 def made(piece: type[P], fixed: Callable[[Any], Mapping[str, Any]] = lambda _: {}) -> Callable[[Rng, Any], P]:
     """Draws one of several pieces, with what the fields before set of it."""
     return lambda rng, p: piece.draw(rng, fixed(p))
+
+
+def own_stream(source: Source, _: Any) -> Rng:
+    """A stream from one number of a field's source, for pieces that are drawn apart from the device: a ``stream``."""
+    return np.random.default_rng(int(source.rng.integers(1 << 30)))
 
 
 def of_form(*forms: str) -> When:

@@ -105,9 +105,9 @@ class Field:
         accept: what a given value (maybe text) stands for; raises ``ValueError`` where it can't be.
         when: whether the device has it at all, by the fields before it; None: always.
         otherwise: its value where it has not.
-        piece: the class of a piece with parameters of its own.
         of_style: whether the style says it.
-        fixed: what the fields before set of such a piece, by name.
+        piece: draws a piece with parameters of its own, given its source, the fields before, and what of it a user
+            gives and the rest of the device sets; None of what has none.
     """
 
     about: str
@@ -117,9 +117,8 @@ class Field:
     accept: Callable[[Any, Any], Any]
     when: When | None = None
     otherwise: Any = None
-    piece: type[Params] | None = None
     of_style: bool = False
-    fixed: Callable[[Any], Mapping[str, Any]] = lambda _: {}
+    piece: Callable[[Source, Any, Mapping[str, Any], Mapping[str, Any]], Any] | None = None
 
 
 def _field(spec: Field) -> Any:
@@ -269,34 +268,36 @@ def styled(default: T, about: str) -> T:
 
 
 def nested(
-    kind: type[P] | Callable[[Source, Any], P],
+    kind: type[P] | Callable[[Source, Any], type[P]],
     about: str,
     *,
     fixed: Callable[[Any], Mapping[str, Any]] = lambda _: {},
+    stream: Callable[[Source, Any], Source | Rng] = lambda source, _: source,
     when: When | None = None,
     otherwise: P | None = None,
 ) -> P:
-    """A piece with parameters of its own: of one class, or of whichever class a function draws.
+    """A piece with parameters of its own.
 
     Args:
-        kind: the class, or what draws one.
+        kind: its class, or what chooses it by the fields before, or draws it.
         about: what it is.
-        fixed: what the fields before set of a piece of one class, by name.
+        fixed: what the fields before set of it, by name.
+        stream: where its parameters are drawn from, given the field's own source and the fields before.
         when: whether the device has it.
         otherwise: what it is where it has not.
     """
-    make: Any = kind
-    piece: type[Params] | None = kind if isinstance(kind, type) else None
 
-    def sample(source: Source, before: Any) -> Any:
-        return piece.draw(source, fixed(before)) if piece is not None else make(source, before)
+    def draw(source: Source, before: Any, given: Mapping[str, Any], said: Mapping[str, Any]) -> Any:
+        chosen: Any = kind if isinstance(kind, type) else kind(source, before)
+        return chosen.draw(stream(source, before), {**fixed(before), **said}, **given)
 
     def accept(value: Any, before: Any) -> P:
         if isinstance(value, Params):
             return value  # type: ignore[return-value]
         raise ValueError("give its own fields, as name.field=value")
 
-    return _field(Field(about, "", "see its own", sample, accept, when, otherwise, piece, fixed=fixed))  # type: ignore[no-any-return]
+    sample = lambda source, before: draw(source, before, {}, {})  # noqa: E731
+    return _field(Field(about, "", "see its own", sample, accept, when, otherwise, piece=draw))  # type: ignore[no-any-return]
 
 
 def several(
@@ -395,13 +396,13 @@ class Params:
             elif name in given:
                 values[name] = _accepted(name, spec, given[name], before)
             elif any(inner) and spec.piece is not None:
-                said = {**spec.fixed(before), **inner[1]}
-                values[name] = _draw_piece(name, spec.piece, source.of(name), inner[0], said)
+                values[name] = _drawn(name, spec.piece, source.of(name), before, *inner)
                 continue
             else:
                 values[name] = spec.sample(source.of(name), before)
             if any(inner):
-                values[name] = _with_inner(name, values[name], source.of(name), *inner)
+                first = next(iter({**inner[0], **inner[1]}))
+                raise ValueError(f"{name}.{first}: the device has no {name} with parameters of its own")
         return cls(**values)
 
     def rows(self, within: str = "") -> list[tuple[str, str, str, str]]:
@@ -454,37 +455,9 @@ def _accepted(name: str, spec: Field, value: Any, before: Any) -> Any:
         raise ValueError(f"{name}={value}: {said}") from None
 
 
-def _with_inner(
-    name: str, piece: Any, source: Source, given: Mapping[str, Any], fixed: Mapping[str, Any] | None = None
-) -> Any:
-    """A piece that was drawn already, with some of its own parameters set."""
-    if not isinstance(piece, Params):
-        first = next(iter({**given, **(fixed or {})}))
-        raise ValueError(f"{name}.{first}: the device has no {name} with parameters of its own")
-    told = {key.split(".")[0] for key in (*given, *(fixed or {}))}
-    kept = {key: value for key, value in _set_by_builder(piece, source).items() if key not in told}
-    return _draw_piece(name, type(piece), source, given, {**kept, **(fixed or {})})
-
-
-def _set_by_builder(piece: Params, source: Source) -> dict[str, Any]:
-    """The parameters of a piece that its own draw from this source would not give: who asked for it set them. The
-    others may become others with what they follow from.
-    """
-    before, found = SimpleNamespace(), {}
-    for key, spec in piece.fields().items():
-        value = getattr(piece, key)
-        out = spec.when is not None and not spec.when(before)
-        if value != (spec.otherwise if out else spec.sample(source.of(key), before)):
-            found[key] = value
-        setattr(before, key, value)
-    return found
-
-
-def _draw_piece(
-    name: str, kind: type[Params], source: Source, given: Mapping[str, Any], fixed: Mapping[str, Any]
-) -> Params:
+def _drawn(name: str, piece: Callable[..., Any], *args: Any) -> Any:
     try:
-        return kind.draw(source, fixed, **given)
+        return piece(*args)
     except ValueError as error:
         raise ValueError(f"{name}.{error}") from None
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from cadgraph.model.scene import Floats
 from cadplants.builder.device import Device
-from cadplants.builder.params import P, Params, Source, When, among, between, chance, given, nested, styled
+from cadplants.builder.params import P, Params, When, among, between, chance, given, nested, styled
 from cadplants.builder.table import Table, outline
 from cadplants.families.valves.valve import disc_flange
 from cadplants.model.family import Port
@@ -74,11 +74,7 @@ def driven(kind: type[P], about: str, *, when: When | None = None, **said: Any) 
         when: whether the machine has it.
         said: what else is set of it.
     """
-
-    def draw(source: Source, p: Any) -> P:
-        return kind.draw(source, {"fine": p.sides[1] >= _FINE, **said, **_frame_of(p)})
-
-    return nested(draw, about, when=when)
+    return nested(kind, about, fixed=lambda p: {"fine": p.sides[1] >= _FINE, **said, **_frame_of(p)}, when=when)
 
 
 def corners(x: float, y: float) -> list[tuple[float, float]]:

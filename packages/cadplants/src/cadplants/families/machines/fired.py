@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from cadplants.builder.device import Device, families_of
-from cadplants.builder.params import Params, Source, among, between, chance, nested, whole
+from cadplants.builder.params import Params, among, between, chance, nested, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.machines.drives import (
     Driven,
@@ -150,18 +148,13 @@ class NozzleMix(Params):
 _FORMS: tuple[type[InDuct] | type[Row] | type[NozzleMix], ...] = (InDuct, Row, NozzleMix)
 
 
-def _without_fan(source: Source, p: Any) -> InDuct | Row | NozzleMix:
-    form: type[InDuct] | type[Row] | type[NozzleMix] = _FORMS[p.form]
-    return form.draw(source)
-
-
 class WithoutFan(
     Device, name="burner/without fan", group="Equipment", label=_NAME, bundle=_NAME, sizes=(15,), weight=1.5
 ):
     """Burners without a fan of their own: a duct burner in a rectangular duct, a row of them, or pilots."""
 
     form: int = whole(0, 2, "in a duct, a row of tubes, with a mixing nozzle")
-    burner: InDuct | Row | NozzleMix = nested(_without_fan, "the burner")
+    burner: InDuct | Row | NozzleMix = nested(lambda _, p: _FORMS[p.form], "the burner")
 
     def build(self, t: Table) -> Model:
         self.burner.build(t)

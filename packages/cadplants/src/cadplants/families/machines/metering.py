@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from cadplants.builder.device import Device, families_of
-from cadplants.builder.params import Params, Source, among, between, chance, nested, whole
+from cadplants.builder.params import Params, among, between, chance, nested, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.machines.drives import CASING, LYING, PUMP, Motor, Pump, corners, dead_room, driven, mouth
 from cadplants.model.family import Model, Port
@@ -142,17 +140,12 @@ class OnDrum(Params):
 _HAND_PUMPS: tuple[type[Wing] | type[Pitcher] | type[OnDrum], ...] = (Wing, Pitcher, OnDrum)
 
 
-def _hand_pump(source: Source, p: Any) -> Wing | Pitcher | OnDrum:
-    form: type[Wing] | type[Pitcher] | type[OnDrum] = _HAND_PUMPS[p.form]
-    return form.draw(source)
-
-
 class Hand(Device, name="pump/hand", group=PUMP, label="pump", bundle=CASING, sizes=(15,)):
     """A hand pump: a wing pump on a wall, a pitcher pump with spout and lever, or a rotary barrel pump on a drum."""
 
     form: int = whole(0, 2, "a wing pump, a pitcher pump, a barrel pump")
     size: float = between(0.8, 1.2, "its size / that of a common one")
-    pump: Wing | Pitcher | OnDrum = nested(_hand_pump, "the pump")
+    pump: Wing | Pitcher | OnDrum = nested(lambda _, p: _HAND_PUMPS[p.form], "the pump")
 
     def build(self, t: Table) -> Model:
         self.pump.build(t, self.size, t.n(0.1 * self.size))

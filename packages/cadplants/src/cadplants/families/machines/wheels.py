@@ -74,7 +74,7 @@ class LaidWheel(Params):
 
     form: str = given("open", "how the wheel is made")
     radius: float = between(0.06, 0.22, "of the wheel", "m")
-    wheel: Wheel = nested(lambda s, p: Wheel.draw(s, {"form": p.form}), "the wheel")
+    wheel: Wheel = nested(Wheel, "the wheel", fixed=lambda p: {"form": p.form})
     lying: bool = chance(0.5, "it lies")
 
     def build(self, t: Table, level: float) -> None:
@@ -98,12 +98,12 @@ class Bench(Device, name="impeller/bench", group=PUMP, label="impeller", sizes=(
     level: float = between(0.6, 1.0, "height of the table", "m")
     count: int = whole(1, 3, "wheels")
     forms: tuple[str, ...] = several(one_of(*_FORMS), lambda p: p.count, "how each wheel is made")
-    first: LaidWheel = nested(lambda s, p: LaidWheel.draw(s, {"form": p.forms[0]}), "first wheel")
+    first: LaidWheel = nested(LaidWheel, "first wheel", fixed=lambda p: {"form": p.forms[0]})
     second: LaidWheel = nested(
-        lambda s, p: LaidWheel.draw(s, {"form": p.forms[1]}), "second wheel", when=lambda p: p.count > 1
+        LaidWheel, "second wheel", fixed=lambda p: {"form": p.forms[1]}, when=lambda p: p.count > 1
     )
     third: LaidWheel = nested(
-        lambda s, p: LaidWheel.draw(s, {"form": p.forms[2]}), "third wheel", when=lambda p: p.count > 2
+        LaidWheel, "third wheel", fixed=lambda p: {"form": p.forms[2]}, when=lambda p: p.count > 2
     )
 
     def build(self, t: Table) -> Model:
@@ -126,7 +126,7 @@ class Cutaway(Device, name="pump/cutaway", group=PUMP, label="pump", bundle=CASI
     radius: float = between(0.1, 0.2, "of the casing", "m")
     seat: float = among((0.03, 0.08, 0.7), "height of what it stands on", "m")
     form: str = among(("open", "closed", "vortex"), "how the wheel is made")
-    wheel: Wheel = nested(lambda s, p: Wheel.draw(s, {"form": p.form}), "the wheel")
+    wheel: Wheel = nested(Wheel, "the wheel", fixed=lambda p: {"form": p.form})
     bed: str = among(
         ("grid", "beams", "sheet", "rim"), "form of the base frame", when=lambda p: p.seat > 0.05, otherwise="rim"
     )

@@ -144,7 +144,7 @@ class UnionElbow(Fitting, name="union/elbow", place="end", sizes=SMALL, weight=1
     radius: float = between(1.25, 1.7, "of the bend / of its body")
     flats: int = among((6, 8), "flats of its mouth")
     corners: int = among((6, 8), "flats of its nut")
-    tail: Tail = nested(tails("open", "open", "cap"), "what goes on from it")
+    tail: Tail = nested(Tail, "what goes on from it", fixed=lambda _: {"ends": ("open", "open", "cap")})
     roll: float = among(QUARTERS, ROLL)
 
     def build(self, t: Table) -> Model:

@@ -86,8 +86,9 @@ class Further(Params):
         0.9, "a pipe on it", when=lambda p: not p.plugged and p.design not in ("flanged", "grooved"), otherwise=True
     )
     tail: Tail = nested(
-        lambda s, p: tails(*_FURTHER.get(p.design, ("open", "open", "cap", "flange")))(s, p),
+        Tail,
         "that pipe",
+        fixed=lambda p: {"ends": _FURTHER.get(p.design, ("open", "open", "cap", "flange"))},
         when=lambda p: p.piped and not p.plugged and not p.bare,
     )
 
@@ -483,7 +484,7 @@ class Saddle(_Outlet, name="branch outlet/saddle", bundle="branch outlet", weigh
     flats: bool = chance(0.5, "a hexagon at its mouth, not a ring")
     metal: str = among(("rubber", "handle", "valve", "trim"), "kind of material")
     bolted: bool = chance(0.5, "a second shell with bolts holds it, not U-bolts")
-    tail: Tail = nested(tails("open", "cap", "flange"), _GOES_ON)
+    tail: Tail = nested(Tail, _GOES_ON, fixed=lambda _: {"ends": ("open", "cap", "flange")})
 
     def build(self, t: Table) -> Model:
         (r, n, _), q = sized(t.dn, t.style), PIPES[self.other].radius

@@ -24,7 +24,6 @@ from cadplants.families.piping.shape import (
     pipe_x,
     prism,
     sized,
-    tails,
 )
 from cadplants.model.family import Model
 from cadplants.model.standards import FLANGES, PIPES, SIZES, sizes_between
@@ -496,8 +495,9 @@ class LidTapping(Params):
     size: int = among(lambda p: _tappings(p.dn, p.many), "nominal size", "mm")
     plugged: bool = chance(0.4, "a plug in it")
     line: Tail = nested(
-        lambda s, p: tails("open", "cap", *(() if p.many else ("flange",)))(s, p),
+        Tail,
         "small line on it",
+        fixed=lambda p: {"ends": ("open", "cap", *(() if p.many else ("flange",)))},
         when=lambda p: not p.plugged,
     )
 

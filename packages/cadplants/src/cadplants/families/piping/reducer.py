@@ -321,7 +321,7 @@ class End(Fitting, name="reducer/end", place="end", sizes=SIZES[1:], weight=1.5)
     """A reducer on a pipe's end, of any make, and what goes on from it."""
 
     other: int = among(lambda p: below(p.dn, 3), "nominal size of its far end", "mm")
-    taper: Taper = nested(lambda s, _: _MAKES[int(s.rng.integers(len(_MAKES)))].draw(s), "how it is made")
+    taper: Taper = nested(lambda source, _: _MAKES[int(source.rng.integers(len(_MAKES)))], "how it is made")
     tail: Tail = nested(Tail, "what goes on from it")
 
     def build(self, t: Table) -> Model:

@@ -526,16 +526,16 @@ class _Slab(Params):
     high: float = between(0.3, 0.9, "height", "m")
 
 
-def _draw_slab(source: Source, _: object) -> _Slab:
+def _behind(source: Source, _: object) -> Source:
     # As many numbers as the size of what stands on the floor takes are drawn first and given up.
     source.rng.random(3)
-    return _Slab.draw(source)
+    return source
 
 
 class BoxRadiator(_Cased, name="radiator/of boxes and cylinders", label="radiator"):
     """A radiator as a box or as ten sections on two headers."""
 
-    size: _Slab = nested(_draw_slab, "size")
+    size: _Slab = nested(_Slab, "size", stream=_behind)
     ribbed: bool = chance(0.5, "ten sections on two headers")
     stub: int = _stub()
 

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import Any
+
 import numpy as np
 
 from cadgraph.model.scene import Floats
 from cadplants.builder.device import Device, families_of
 from cadplants.builder.draws import made, yes
-from cadplants.builder.params import Params, Source, among, between, chance, given, nested, several, whole
+from cadplants.builder.params import Params, among, between, chance, given, nested, several, whole
 from cadplants.builder.table import Table
 from cadplants.families.primitive.shape import (
     cone,
@@ -230,16 +233,22 @@ _SIZES: dict[str, tuple[tuple[float, ...], ...]] = {
 
 
 def _size_of(name: str) -> _Size:
-    def draw(source: Source, _: object) -> _Size:
-        rng = source.rng
-        # A size of each kind, so that all kinds draw as many numbers.
-        drawn = {
-            kind: [span[0] if len(span) == 1 else float(rng.uniform(span[0], span[1])) for span in spans]
-            for kind, spans in _SIZES.items()
-        }
-        return _Size(**dict(zip(("wide", "deep", "high"), drawn[name], strict=True)))
+    class Sized(_Size):
+        """The size of a box of one kind."""
 
-    return nested(draw, "its box")
+        @classmethod
+        def draw(cls, source: Any, fixed: Mapping[str, Any] | None = None, **given: Any) -> Any:
+            rng = source.rng
+            # A size of each kind, so that all kinds draw as many numbers.
+            drawn = {
+                kind: [span[0] if len(span) == 1 else float(rng.uniform(span[0], span[1])) for span in spans]
+                for kind, spans in _SIZES.items()
+            }
+            sizes = zip(("wide", "deep", "high"), drawn[name], strict=True)
+            said = {key: value for key, value in sizes if key not in given}
+            return super().draw(source, {**said, **(fixed or {})}, **given)
+
+    return nested(Sized, "its box")
 
 
 class _Boxed(_Utility, weight=0.6):

@@ -10,7 +10,7 @@ import numpy as np
 from cadgraph.model.scene import Floats
 from cadplants.builder.device import families_of
 from cadplants.builder.draws import made, yes
-from cadplants.builder.params import Params, Source, among, between, chance, given, nested, several, whole
+from cadplants.builder.params import Params, Source, When, among, between, chance, given, nested, several, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.steel.shape import (
     Structure,
@@ -182,9 +182,9 @@ def _turns(fixed: bool) -> Callable[[Rng, Any], _Turn]:
     return made(_Turn, lambda p: {"swivels": not fixed, "plated": p.makes[0] not in ("stem", "twin")})
 
 
-def _one(fixed: bool) -> Callable[[Source, Any], Caster]:
+def _alike(_: Source, p: Any) -> Rng:
     """Each is made from the same draws, so that the wheels of one cart are alike."""
-    return lambda _, p: Caster.draw(np.random.default_rng(p.seed), {"make": p.makes[0 if fixed else -1]})
+    return np.random.default_rng(p.seed)
 
 
 def _fixed(p: Any) -> int:
@@ -198,15 +198,27 @@ class Casters(Params):
     makes: tuple[str, ...] = given(("swivel",), "makes, one after the other and again")
     count: int = given(4, "casters")
     seed: int = whole(0, (1 << 30) - 1, "number that all of them are drawn from, which makes them alike")
-    fixed: Caster = nested(_one(True), "one that doesn't swivel", when=lambda p: _fixed(p) > 0)
-    swivel: Caster = nested(_one(False), "one that swivels", when=lambda p: _fixed(p) < p.count)
+    fixed: Caster = nested(
+        Caster,
+        "one that doesn't swivel",
+        fixed=lambda p: {"make": p.makes[0]},
+        stream=_alike,
+        when=lambda p: _fixed(p) > 0,
+    )
+    swivel: Caster = nested(
+        Caster,
+        "one that swivels",
+        fixed=lambda p: {"make": p.makes[-1]},
+        stream=_alike,
+        when=lambda p: _fixed(p) < p.count,
+    )
     still: tuple[_Turn, ...] = several(_turns(True), _fixed, "how those that don't swivel are held")
     turned: tuple[_Turn, ...] = several(_turns(False), lambda p: p.count - _fixed(p), "how the others are")
 
     @classmethod
-    def of(cls, *makes: str, count: int = 4) -> Callable[[Source, Any], Casters]:
-        """What draws casters of these makes."""
-        return lambda source, _: cls.draw(source, {"makes": makes, "count": count})
+    def of(cls, *makes: str, count: int = 4, when: When | None = None) -> Casters:
+        """The field of casters of these makes."""
+        return nested(cls, "casters", fixed=lambda _: {"makes": makes, "count": count}, when=when)
 
     def height(self, r: float) -> float:
         """Of what they carry, with wheels of a radius [m]."""
@@ -230,7 +242,7 @@ class _Dolly(Structure, grain="fitting"):
     radius: float = between(0.03, 0.1, "of a wheel", "m")
     length: float = between(0.4, 1.2, "of its deck, but for 4 radii of a wheel", "m")
     width: float = between(0.35, 0.8, "of its deck, but for 3 radii of a wheel", "m")
-    casters: Casters = nested(Casters.of(), "casters")
+    casters: Casters = Casters.of()
     deck: str = among(("plate", "frame", "pan"), "what it carries things on")
     corner: float = between(0, 0.06, "radius of a plate's corners", "m", when=lambda p: p.deck == "plate")
     plate: str = among(("plate", "skid frame"), "what a plate is called", when=lambda p: p.deck == "plate")
@@ -257,25 +269,25 @@ class _Dolly(Structure, grain="fitting"):
 class Swivel(_Dolly, name="caster/swivel plate", weight=1.5):
     """A low dolly on swivel casters, half of them with brakes."""
 
-    casters: Casters = nested(Casters.of("swivel", "braked"), "casters")
+    casters: Casters = Casters.of("swivel", "braked")
 
 
 class FixedAndSwivel(_Dolly, name="caster/fixed and swivel", weight=1.2):
     """A low dolly on fixed casters at one end and swivel casters at the other."""
 
-    casters: Casters = nested(Casters.of("fixed", "fixed", "swivel", "braked"), "casters")
+    casters: Casters = Casters.of("fixed", "fixed", "swivel", "braked")
 
 
 class HeavyDuty(_Dolly, name="caster/heavy"):
     """A low dolly on heavy casters."""
 
-    casters: Casters = nested(Casters.of("heavy"), "casters")
+    casters: Casters = Casters.of("heavy")
 
 
 class Levelling(_Dolly, name="caster/levelling", weight=0.7):
     """A low dolly on casters with levelling feet."""
 
-    casters: Casters = nested(Casters.of("levelling"), "casters")
+    casters: Casters = Casters.of("levelling")
 
 
 class Trolley(Structure, name="caster/stem", weight=1.2, grain="fitting"):

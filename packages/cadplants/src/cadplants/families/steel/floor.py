@@ -9,7 +9,7 @@ import numpy as np
 from cadgraph.model.scene import Floats
 from cadplants.builder.device import families_of
 from cadplants.builder.draws import number, yes
-from cadplants.builder.params import among, between, chance, nested, several, whole
+from cadplants.builder.params import among, between, chance, several, whole
 from cadplants.builder.table import Table
 from cadplants.families.steel.caster import Casters
 from cadplants.families.steel.shape import (
@@ -359,7 +359,7 @@ class Scaffold(Structure, name="platform/scaffold", weight=0.8, grain="fitting")
     height: float = between(1.6, 3.2, "of the deck", "m")
     radius: float = between(0.06, 0.09, "of a caster's wheel", "m")
     wheeled: bool = chance(0.7, "on casters")
-    casters: Casters = nested(Casters.of("stem"), "casters", when=lambda p: p.wheeled)
+    casters: Casters = Casters.of("stem", when=lambda p: p.wheeled)
     joined: tuple[bool, ...] = several(yes(0.5), 2, "whether the rungs of a frame are one mesh")
 
     def build(self, t: Table) -> Model:

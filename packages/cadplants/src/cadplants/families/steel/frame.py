@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from cadplants.builder.device import families_of
-from cadplants.builder.draws import made, number, of_form, yes
+from cadplants.builder.draws import made, number, of_form, own_stream, yes
 from cadplants.builder.params import Params, among, between, chance, nested, several, whole
 from cadplants.builder.table import Table
 from cadplants.families.steel.shape import (
@@ -232,11 +232,6 @@ class _Tread(Params):
 
     form: str = among(("slab", "grating", "folded"), "what it is")
 
-    @classmethod
-    def alike(cls, rng: np.random.Generator) -> _Tread:
-        """One for all steps, drawn apart from the flight."""
-        return cls.draw(np.random.default_rng(int(rng.integers(1 << 30))))
-
     def solids(self, go: float, wide: float) -> list[Solid]:
         """The tread about its middle, its width along y [m]."""
         if self.form == "slab":
@@ -257,7 +252,7 @@ class Flight(Structure, name="stairs/flight", weight=1.5, grain="fitting"):
     width: float = between(0.6, 1.0, "of the flight", "m")
     count: int = whole(4, 8, "steps")
     flat: bool = chance(0.5, "its stringers are flats, not channels")
-    tread: _Tread = nested(lambda s, _: _Tread.alike(s.rng), "of every step")
+    tread: _Tread = nested(_Tread, "of every step", stream=own_stream)
     railed: bool = chance(0.7, "a handrail on either side")
 
     def build(self, t: Table) -> Model:

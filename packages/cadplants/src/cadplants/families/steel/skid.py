@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from cadplants.builder.device import families_of
 from cadplants.builder.draws import number, of_form
-from cadplants.builder.params import Params, Source, among, between, chance, given, nested, several, whole
+from cadplants.builder.params import Params, among, between, chance, given, nested, several, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.steel.shape import (
     Section,
@@ -110,9 +108,9 @@ class Payload(Params):
     braced: bool = chance(0.5, "the frame is braced", when=of_form("frame"))
 
     @classmethod
-    def on(cls, source: Source, p: Any) -> Payload:
-        """Drawn for what may have a deck."""
-        return cls.draw(source, {"decked": p.deck.form != "bare"})
+    def on(cls) -> Payload:
+        """The field of what may have a deck."""
+        return nested(cls, "what stands on it", fixed=lambda p: {"decked": p.deck.form != "bare"})
 
     def build(self, t: Table, a: float, b: float) -> None:
         """Puts it down on z = 0, within two sides [m]."""
@@ -151,7 +149,7 @@ class Welded(Structure, name="skid frame/welded", weight=2.0):
     joined: bool = chance(0.3, "the frame is one mesh")
     deck: Deck = nested(Deck, "what lies on it")
     lugs: Lugs = nested(Lugs, "what it is lifted by")
-    payload: Payload = nested(Payload.on, "what stands on it")
+    payload: Payload = Payload.on()
     bolted: bool = chance(0.4, "bolted down by plates at its corners")
 
     def build(self, t: Table) -> Model:
@@ -183,7 +181,7 @@ class Forked(Structure, name="skid frame/fork pockets", weight=1.3):
     shape: str = among(("U", "RHS"), "section")
     pocket: float = among((0.15, 0.2), "width of a pocket", "m")
     deck: Deck = nested(Deck, "what lies on it")
-    payload: Payload = nested(Payload.on, "what stands on it")
+    payload: Payload = Payload.on()
 
     def build(self, t: Table) -> Model:
         a, b, h, one = self.length, self.width, self.size, section(self.shape, self.size, t.style)
@@ -345,7 +343,7 @@ class Sledge(Structure, name="skid frame/sledge"):
     timber: bool = chance(0.3, "of timber, not pipe")
     ties: int = whole(3, 5, "cross members")
     deck: Deck = nested(Deck, "what lies on it")
-    payload: Payload = nested(Payload.on, "what stands on it")
+    payload: Payload = Payload.on()
 
     def build(self, t: Table) -> Model:
         a, b, r, timber, own = self.length, self.width, self.radius, self.timber, t.bundled(_SKID)

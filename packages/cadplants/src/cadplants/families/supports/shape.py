@@ -11,6 +11,7 @@ import numpy as np
 
 from cadgraph.model.scene import Floats
 from cadplants.builder.device import Device
+from cadplants.builder.draws import own_stream
 from cadplants.builder.params import (
     Field,
     Params,
@@ -329,13 +330,9 @@ class _Leg(Feet):
         self.foot.build(t.at(0, 0, low), size + self.margin, size)
 
 
-def _pair_of(source: Source, p: Any) -> _Leg:
-    """The parameters of two legs alike."""
-    return _Leg.draw(np.random.default_rng(int(source.rng.integers(1 << 30))), _feet(p))
-
-
-def _leg_of(source: Source, p: Any) -> _Leg:
-    return _pair_of(source, p) if p.form == "portal" else _Leg.draw(source, _feet(p))
+def _apart_in_pairs(source: Source, p: Any) -> Source | np.random.Generator:
+    """The legs of a portal are drawn once for both."""
+    return own_stream(source, p) if p.form == "portal" else source
 
 
 def _block(p: Any) -> bool:
@@ -360,7 +357,9 @@ class Below(Feet):
     head: float = among((0.006, 0.01, 0.012), "thickness of the post's head plate", "m", when=_on("post"))
     over: float = between(0.12, 0.5, "how far its beam reaches past the support", "m", when=_on(*_BEAM))
     section: Section = section_of("section of its beam", when=_on(*_BEAM))
-    leg: _Leg = nested(_leg_of, "its post, or each", when=_on("post", "portal", "tee"))
+    leg: _Leg = nested(
+        _Leg, "its post, or each", fixed=_feet, stream=_apart_in_pairs, when=_on("post", "portal", "tee")
+    )
     rise: float = between(0.1, 0.8, "of the column over the support", "m", when=_on("column"))
     thick: float = between(0.12, 0.25, "of the wall", "m", when=_on("wall"))
     long: float = between(0.5, 1.2, "of the wall", "m", when=_on("wall"))
@@ -416,7 +415,7 @@ class Overhead(Feet):
     over: float = between(0.2, 0.6, "how far the beam reaches past the hanger", "m")
     along: bool = chance(0.3, "along the line, which leaves no place for legs", when=lambda p: p.half < 0.04)
     held: int = whole(0, 2, "hangs free, on two legs, on a column", when=lambda p: p.height < 3.0 and not p.along)
-    leg: _Leg = nested(_pair_of, "each of its legs", when=lambda p: p.held == 1)
+    leg: _Leg = nested(_Leg, "each of its legs", fixed=_feet, stream=own_stream, when=lambda p: p.held == 1)
 
     def build(self, t: Table, low: float) -> None:
         """Puts it down, its underside at ``low`` [m]."""

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from cadplants.builder.device import families_of
+from cadplants.builder.draws import own_stream
 from cadplants.builder.params import among, between, chance, nested, whole
 from cadplants.builder.table import Table
 from cadplants.families.supports.shape import (
@@ -74,10 +75,7 @@ class OnAngle(_UBolt, name="u-bolt/angle"):
     upper: bool = chance(0.3, "nuts above the angle too")
     taken: str = among(("beam", "beam", "brace"), "what the angle is taken for")
     post: _Post = nested(
-        lambda s, p: _Post.draw(
-            np.random.default_rng(int(s.rng.integers(1 << 30))), {"holes": p.holes, "structure": p.structure}
-        ),
-        "each post",
+        _Post, "each post", fixed=lambda p: {"holes": p.holes, "structure": p.structure}, stream=own_stream
     )
     both: bool = chance(0.6, "a post at either end")
 

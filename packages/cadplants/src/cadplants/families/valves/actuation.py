@@ -287,7 +287,7 @@ class Operator(Scaled):
     """What turns a stem, on its pad on z = 0: a lever, a gear or an actuator."""
 
     make: str = among(lambda p: _fit(_ALL, p.radius), "what it is")
-    form: Any = nested(lambda s, p: OPERATORS[p.make].draw(s), "its proportions")
+    form: Any = nested(lambda _, p: OPERATORS[p.make], "its proportions")
 
 
 def operator(

@@ -265,7 +265,7 @@ class Handwheel(Params):
     """A handwheel of one of some makes about z, its hub standing on z = 0."""
 
     make: str = among(("spoked", "spoked", "spoked", "disc", "dished", "tubular", "wire"), "how it is made")
-    form: Any = nested(lambda s, p: _WHEELS[p.make].draw(s), "its proportions")
+    form: Any = nested(lambda _, p: _WHEELS[p.make], "its proportions")
     turn: float = between(0, 6, "how far it is turned", "rad")
 
     def build(self, t: Table, radius: float, z: float = 0.0, turns: str = "handwheel") -> None:
@@ -447,7 +447,7 @@ class Handlever(Params):
     """A lever of one of some makes on z = 0, along, across or against the run."""
 
     make: str = among(("sheet", "sheet", "cast", "bar", "loop", "spanner"), "how it is made")
-    form: Any = nested(lambda s, p: _LEVERS[p.make].draw(s), "its proportions")
+    form: Any = nested(lambda _, p: _LEVERS[p.make], "its proportions")
     turn: float = among((0.0, 0.0, np.pi / 2, np.pi, -np.pi / 2), "where it points, from along the run", "rad")
 
     def build(self, t: Table, length: float, z: float = 0.0) -> None:

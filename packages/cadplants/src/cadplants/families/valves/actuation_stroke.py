@@ -259,7 +259,7 @@ class _Turning(Params):
     kind = "turning"
 
     make: str = among(("multi-turn", "electrohydraulic", "bevel"), "what it is")
-    form: Any = nested(lambda s, p: OPERATORS[p.make].draw(s), "its proportions")
+    form: Any = nested(lambda _, p: OPERATORS[p.make], "its proportions")
 
     def build(self, t: Table, radius: float, tall: float) -> None:
         """Puts it down on a height, for a pipe of a radius [m]."""
@@ -279,7 +279,7 @@ class Linear(Params):
     make: str = among(tuple(STROKES), "what lifts the stem")
     tall: float = between(0.8, 1.3, "height of its yoke / what the pipe asks for")
     yoke: Yoke = nested(Yoke, "yoke")
-    form: Any = nested(lambda s, p: STROKES[p.make].draw(s), "proportions of what lifts the stem")
+    form: Any = nested(lambda _, p: STROKES[p.make], "proportions of what lifts the stem")
     positioned: bool = chance(0.55, "has a positioner", when=lambda p: p.make in ("diaphragm", "piston"))
     boxy: bool = chance(0.5, "its positioner is a box, not round", when=lambda p: p.positioned)
     scaled: bool = chance(0.6, "a travel scale on an arm of its yoke")

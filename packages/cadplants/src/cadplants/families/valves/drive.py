@@ -306,7 +306,7 @@ class Drive(Scaled):
     """What moves a valve, on the stem's collar on z = 0."""
 
     make: str = among(lambda p: _fit(_QUARTER, p.radius), "what it is")
-    form: Any = nested(lambda s, p: _DRIVES[p.make].draw(s), "its proportions")
+    form: Any = nested(lambda _, p: _DRIVES[p.make], "its proportions")
 
 
 def driven(

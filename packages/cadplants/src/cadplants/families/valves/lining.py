@@ -46,7 +46,7 @@ class StraightDiaphragm(Valve, name="diaphragm valve/straight through", sizes=si
         wheels("spoked", "spoked", "lobed", "dished", "disc"), "handwheel", when=lambda p: p.wheeled
     )
     make: str = among(("piston", "diaphragm"), "what the actuator is", when=lambda p: not p.wheeled, otherwise="")
-    actuator: Any = nested(lambda s, p: STROKES[p.make].draw(s), "actuator", when=lambda p: not p.wheeled)
+    actuator: Any = nested(lambda _, p: STROKES[p.make], "actuator", when=lambda p: not p.wheeled)
 
     def build(self, t: Table) -> Model:
         r, length, (neck, back) = t.pipe.radius, FACE_TO_FACE["gate"][t.dn] * 1.1, neck_of(t.dn)
@@ -150,7 +150,7 @@ class OpenPinch(Valve, name="pinch valve/open frame", sizes=sizes_between(25)):
     stem: str = among(STEMS, _ABOUT_STEM, when=lambda p: p.wheeled, otherwise="plain")
     wheel: Handwheel = nested(Handwheel, "handwheel", when=lambda p: p.wheeled)
     make: str = among(("piston", "ram", "turning"), "what the actuator is", when=lambda p: not p.wheeled, otherwise="")
-    actuator: Any = nested(lambda s, p: STROKES[p.make].draw(s), "actuator", when=lambda p: not p.wheeled)
+    actuator: Any = nested(lambda _, p: STROKES[p.make], "actuator", when=lambda p: not p.wheeled)
 
     def build(self, t: Table) -> Model:
         r, size, thick, length = t.pipe.radius, t.flange.outer, plate_thickness(t.dn), 0.12 + 4.4 * t.pipe.radius
@@ -191,7 +191,7 @@ class _Squeezer(Params):
 
     powered: bool = chance(0.4, "a piston or ram rather than a wheel")
     make: str = among(("piston", "ram"), "what the actuator is", when=lambda p: p.powered, otherwise="")
-    actuator: Any = nested(lambda s, p: STROKES[p.make].draw(s), "actuator", when=lambda p: p.powered)
+    actuator: Any = nested(lambda _, p: STROKES[p.make], "actuator", when=lambda p: p.powered)
     yoke: Yoke = nested(Yoke, "yoke", when=lambda p: not p.powered)
     stem: str = among(STEMS, _ABOUT_STEM, when=lambda p: not p.powered, otherwise="plain")
     wheel: Handwheel = nested(Handwheel, "handwheel", when=lambda p: not p.powered)

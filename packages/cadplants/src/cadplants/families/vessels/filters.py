@@ -59,7 +59,7 @@ class SwingLid(_Filter, name="filter/swing lid"):
     bolts: int = among((3, 4, 6), "eye bolts")
     feet: str = among(("pipe", "tripod", "angle"), "legs")
     legs: Feet = nested(
-        lambda s, p: FEET[p.feet].draw(s, {"clear": 0.35 + p.clear + head_height("2:1", p.radius)}), "legs"
+        lambda _, p: FEET[p.feet], "legs", fixed=lambda p: {"clear": 0.35 + p.clear + head_height("2:1", p.radius)}
     )
     below: bool = chance(0.5, "its outlet is below, not on the side")
 
@@ -171,10 +171,12 @@ class MediaVessel(_Filter, name="filter/media vessel", weight=0.9):
     legged: bool = chance(0.7, "on legs rather than a skirt")
     feet: str = among(("pipe", "angle"), "legs", when=lambda p: p.legged, otherwise="open")
     stand: Feet = nested(
-        lambda s, p: FEET[p.feet].draw(s, {"clear": head_height("torispherical", p.radius) + 0.3}), "what it stands on"
+        lambda _, p: FEET[p.feet],
+        "what it stands on",
+        fixed=lambda p: {"clear": head_height("torispherical", p.radius) + 0.3},
     )
     swing: bool = chance(0.5, "its manway has swing bolts rather than bridges")
-    manway: Manway = nested(lambda s, p: MANWAYS["swing" if p.swing else "oval"].draw(s), "manway")
+    manway: Manway = nested(lambda _, p: MANWAYS["swing" if p.swing else "oval"], "manway")
     pipe: int = among((40, 50, 65), "nominal size of the piping", "mm")
     valves: int = whole(2, 4, "valves")
 

@@ -77,8 +77,9 @@ class Reactor(Tank, name="tank/stirred reactor", weight=1.2):
     manway: Manway = nested(MANWAYS["swing"], "manway on top", when=lambda p: p.radius > 0.55)
     feet: str = among(("pipe", "bracket", "beam"), "what it stands on")
     stand: Feet = nested(
-        lambda s, p: FEET[p.feet].draw(s, {"clear": head_height(_DISHED, p.radius) + 0.4 + 0.3 * p.radius}),
+        lambda _, p: FEET[p.feet],
         "what it stands on",
+        fixed=lambda p: {"clear": head_height(_DISHED, p.radius) + 0.4 + 0.3 * p.radius},
     )
 
     def build(self, t: Table) -> Model:
@@ -130,8 +131,9 @@ class Mixer(Tank, name="tank/open mixer", weight=0.7):
     blades: int = whole(2, 4, "blades of the impeller")
     feet: str = among(("pipe", "angle"), "legs")
     legs: Feet = nested(
-        lambda s, p: FEET[p.feet].draw(s, {"clear": max(0.35 + 0.35 * p.radius, head_height(p.lower, p.radius) + 0.2)}),
+        lambda _, p: FEET[p.feet],
         "legs",
+        fixed=lambda p: {"clear": max(0.35 + 0.35 * p.radius, head_height(p.lower, p.radius) + 0.2)},
     )
 
     def build(self, t: Table) -> Model:
@@ -238,8 +240,9 @@ class Receiver(Tank, name="tank/air receiver"):
     ringed: bool = chance(0.5, "a ring under it rather than legs")
     feet: str = among(("tripod", "angle"), "legs", when=lambda p: not p.ringed, otherwise="")
     legs: Feet = nested(
-        lambda s, p: FEET[p.feet].draw(s, {"clear": head_height(_DISHED, p.radius) + 0.15}),
+        lambda _, p: FEET[p.feet],
         "legs",
+        fixed=lambda p: {"clear": head_height(_DISHED, p.radius) + 0.15},
         when=lambda p: not p.ringed,
     )
     handhole: Manway = nested(MANWAYS["oval"], "handhole")

@@ -65,8 +65,9 @@ class KnockOut(_Separator, name="separator/knock-out drum"):
     seam: float = between(0.65, 0.85, "height of the girth flange over the shell's lower rim / of the shell")
     feet: str = among(("chairs", "open", "angle", "beam"), "what it stands on")
     stand: Feet = nested(
-        lambda s, p: FEET[p.feet].draw(s, {"clear": head_height("2:1", p.radius) + 0.35 + 0.3 * p.radius}),
+        lambda _, p: FEET[p.feet],
         "what it stands on",
+        fixed=lambda p: {"clear": head_height("2:1", p.radius) + 0.35 + 0.3 * p.radius},
     )
     size: int = among(lambda p: _sizes((40, 50, 80, 100, 150), 0.9 * p.radius), "nominal size of its mouths", "mm")
     handhole: Manway = nested(MANWAYS["oval"], "handhole", when=lambda p: p.radius > 0.3)

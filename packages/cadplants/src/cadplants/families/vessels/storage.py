@@ -77,7 +77,7 @@ class _Fittings(Params):
     low: tuple[_Low, ...] = several(made(_Low), lambda p: min(p.count, 2), "nozzles")
     high: _High = nested(_High, "a nozzle near the upper rim", when=lambda p: p.count == 3)
     closure: str = among(("hinged", "davit"), "what holds the manway's cover", when=lambda p: p.manned, otherwise="")
-    manway: Manway = nested(lambda s, p: MANWAYS[p.closure].draw(s), "manway", when=lambda p: p.manned)
+    manway: Manway = nested(lambda _, p: MANWAYS[p.closure], "manway", when=lambda p: p.manned)
 
     def build(self, t: Table, drum: Drum) -> list[Port]:
         spots = [(one.form, one.size, drum.low + one.height) for one in self.low]
@@ -185,7 +185,7 @@ class ConeRoof(_Roofed, name="tank/cone roof", weight=1.0):
     top: str = among(("vent", "blind", "plain"), "how the nozzle on top is built")
     top_size: int = among((80, 100, 150), "nominal size of the nozzle on top", "mm")
     hatch: str = among(("hatch", "hinged"), "what closes the manway in the roof")
-    roof_manway: Manway = nested(lambda s, p: MANWAYS[p.hatch].draw(s), "manway in the roof")
+    roof_manway: Manway = nested(lambda _, p: MANWAYS[p.hatch], "manway in the roof")
     access: _Access = _access()
 
     def build(self, t: Table) -> Model:
@@ -309,9 +309,7 @@ class Silo(Tank, name="tank/silo"):
     slender: float = between(2.0, 4.0, "height of the shell / its radius")
     shell: str = among(("plain", "hooped", "corrugated"), "how its shell is built")
     rise: float = between(0.15, 0.5, "height of the roof / radius of the shell")
-    legs: Feet = nested(
-        lambda s, p: FEET["beam"].draw(s, {"clear": p.radius * p.cone + p.clear}), "columns with braces"
-    )
+    legs: Feet = nested(FEET["beam"], "columns with braces", fixed=lambda p: {"clear": p.radius * p.cone + p.clear})
     filtered: bool = chance(0.6, "a filter on the roof")
 
     def build(self, t: Table) -> Model:

@@ -97,7 +97,7 @@ class _Upright(Tank, weight=0.7):
     clear: float = between(
         0.2, 0.6, "from the floor to the lower head, but for 0.3 radii", "m", when=lambda p: p.feet != "pads"
     )
-    stand: Feet = nested(lambda s, p: FEET[p.feet].draw(s, {"clear": _clear(p)}), "what it stands on")
+    stand: Feet = nested(lambda _, p: FEET[p.feet], "what it stands on", fixed=lambda p: {"clear": _clear(p)})
     count: int = whole(1, 3, "nozzles on the side")
     first: _Nozzle = nested(_Nozzle, "first nozzle on the side", fixed=lambda p: {"room": p.radius})
     others: tuple[_Nozzle, ...] = several(
@@ -220,7 +220,7 @@ class _Lying(Tank, weight=0.7):
     lift: float = between(0, 0.25, "how much higher it lies / radius of the shell")
     ends: str = among((*_HEADS, "hemispherical", "flat"), "heads at its ends")
     third: bool = chance(0.3, "a third saddle", when=lambda p: _length(p) > 4.8 * p.radius)
-    saddle: Saddle = nested(lambda s, p: SADDLES[p.rest].draw(s), "each saddle")
+    saddle: Saddle = nested(lambda _, p: SADDLES[p.rest], "each saddle")
     count: int = whole(2, 4, "nozzles and manways on top")
     opening: float = between(
         0.22,
@@ -229,7 +229,7 @@ class _Lying(Tank, weight=0.7):
         "m",
         when=lambda p: p.closure != "none",
     )
-    manway: Manway = nested(lambda s, p: MANWAYS[p.closure].draw(s), "manway", when=lambda p: p.closure != "none")
+    manway: Manway = nested(lambda _, p: MANWAYS[p.closure], "manway", when=lambda p: p.closure != "none")
     nozzles: tuple[_TopNozzle, ...] = several(
         made(_TopNozzle, lambda p: {"room": 0.8 * p.radius}),
         lambda p: p.count - (p.closure != "none"),
@@ -285,7 +285,7 @@ class BoltedHead(Tank, name="dished head/bolted on", weight=0.7):
     cover: str = among(("flat plate", "torispherical", "hemispherical"), "upper head")
     feet: str = among(("pipe", "angle"), "legs")
     stand: Feet = nested(
-        lambda s, p: FEET[p.feet].draw(s, {"clear": head_height("2:1", p.radius) + 0.35}), "what it stands on"
+        lambda _, p: FEET[p.feet], "what it stands on", fixed=lambda p: {"clear": head_height("2:1", p.radius) + 0.35}
     )
     top: int = among(lambda p: _sizes(0.7 * p.radius), "nominal size of the nozzle on top", "mm")
     side: int = among(lambda p: _sizes(0.7 * p.radius), "nominal size of the nozzle on the side", "mm")
