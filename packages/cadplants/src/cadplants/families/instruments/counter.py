@@ -9,7 +9,7 @@ from cadplants.builder.dials import CASE, Housing
 from cadplants.builder.params import Params, among, between, chance, nested
 from cadplants.builder.table import Table, outline
 from cadplants.families.instruments.flow import NAME, FlowMeter, measuring_tube
-from cadplants.families.instruments.pieces import FRONT, bent, put
+from cadplants.families.instruments.pieces import BEFORE, FRONT, bent, put
 from cadplants.families.valves.threaded import hex_end
 from cadplants.families.valves.valve import bolt_circle, disc_flange
 from cadplants.model.family import Model, Port
@@ -161,7 +161,7 @@ class Displacement(FlowMeter, name="flow meter/displacement", sizes=sizes_betwee
         crate = extrude(rounded_rectangle(wide, 0.8 * wide, 0.1 * wide, 3), 0.0, tall)
         knob = along("x", cylinder(0.018, 0.0, 0.04, 12), 0.49 * wide, 0, 0.5 * tall)
         t.add(CASE, crate, knob, of="valve")
-        panes, front = box((0.7 * wide, 0.004, 0.3 * tall), (0, -0.4 * wide - 0.002, 0.65 * tall)), (0.0, -1.0, 0.0)
+        panes, front = box((0.7 * wide, 0.004, 0.3 * tall), (0, -0.4 * wide - 0.002, 0.65 * tall)), BEFORE
         if not self.upright:
             panes, front = box((0.7 * wide, 0.25 * wide, 0.004), (0, 0.1 * wide, tall + 0.002)), FRONT
         t.add("gauge face", panes, front=front)
@@ -216,7 +216,7 @@ class DiaphragmGas(FlowMeter, name="flow meter/diaphragm gas", place="floor", si
             t.at(x).add(NAME, *stub, along("-z", disc_flange(self.mouth, t.style, 0.07), 0, 0, z + 0.11), of="trim")
         y, high, case_ = -0.47 * deep, low + 0.82 * tall, t.bundled(CASE)
         case_.add(CASE, box((0.35 * wide, 0.03, 0.16 * tall), (0, y - 0.01, high)), of="rubber")
-        case_.add("gauge face", box((0.28 * wide, 0.002, 0.06 * tall), (0, y - 0.026, high)), front=(0.0, -1.0, 0.0))
+        case_.add("gauge face", box((0.28 * wide, 0.002, 0.06 * tall), (0, y - 0.026, high)), front=BEFORE)
         t.add("plate", box((1.1 * wide, 1.1 * deep, 0.005), (0, 0, low - 0.0025)))
         leg = low - 0.005
         for x in (-0.5, 0.5):

@@ -9,7 +9,7 @@ from cadplants.builder.dials import CASE, STEM, Dial, Gland, Housing, fine_sides
 from cadplants.builder.draws import made
 from cadplants.builder.params import Params, among, between, chance, given, nested, several, whole
 from cadplants.builder.table import Table, outline
-from cadplants.families.instruments.pieces import Board, Gauge, bent, put
+from cadplants.families.instruments.pieces import BEFORE, Board, Gauge, bent, put
 from cadplants.families.valves.valve import bolt_circle, disc_flange
 from cadplants.model.family import Model
 from cadplants.model.standards import PIPES, SIZES
@@ -208,7 +208,7 @@ class VCase(Gauge, name="thermometer/v-case"):
             stem.append(_ball_at(0.5 * wide, low + 0.4 * wide, t.style))
         put(t, STEM, *stem)
         t = t.at(0, 0, low + (0.4 * wide if self.lean else 0.012)).spun("y", self.lean)
-        t, front = t.at(0, 0, 0.01 if self.lean else 0.0), (0.0, -1.0, 0.0)
+        t, front = t.at(0, 0, 0.01 if self.lean else 0.0), BEFORE
         v = np.array(outline(-0.5, -1, -0.36, -1, 0, -0.2, 0.36, -1, 0.5, -1, 0.12, 0.3, -0.12, 0.3)) * (wide, deep)
         foot = turned(outline(0.25 * wide, -0.012, 0.42 * wide, 0.0, 0.42 * wide, 0.006), n)
         cap = cylinder(0.4 * wide, tall - 0.003, tall + 0.006, n), _ball_at(0.2 * wide, tall + 0.01, t.style)

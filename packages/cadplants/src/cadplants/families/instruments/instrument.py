@@ -10,7 +10,7 @@ from cadplants.builder.dials import CASE, STEM, upright
 from cadplants.builder.params import Params, among, between, chance, nested, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.instruments.flow import NAME, FlowMeter
-from cadplants.families.instruments.pieces import FRONT, Gauge, put
+from cadplants.families.instruments.pieces import BEFORE, FRONT, Gauge, put
 from cadplants.families.instruments.sight import SIGHT_GLASS, SightGlass
 from cadplants.families.valves.threaded import hex_end
 from cadplants.families.valves.valve import bolt_circle, disc_flange, flanged_body
@@ -447,7 +447,7 @@ class Rotameter(FlowMeter, name="flow meter/rotameter", sizes=_SOME):
             line.add(NAME, ring(bore_of(self.dn, t.style), radius, low + 0.02, length - low - 0.02, n))
             case = t.at(length / 2, -radius).bundled(CASE)
             case.add(CASE, box((0.12, 0.06, 0.14), (0, -0.03, 0)), of="valve")
-            case.add("gauge face", box((0.09, 0.003, 0.11), (0, -0.0615, 0)), front=(0.0, -1.0, 0.0))
+            case.add("gauge face", box((0.09, 0.003, 0.11), (0, -0.0615, 0)), front=BEFORE)
         return t.model(round(length, 6), kind=NAME)
 
 

@@ -8,7 +8,7 @@ from cadplants.builder.device import families_of
 from cadplants.builder.dials import CASE, Dial, Gland, Housing, fine_sides
 from cadplants.builder.params import among, between, chance, nested, whole
 from cadplants.builder.table import Table, outline
-from cadplants.families.instruments.pieces import FRONT, Gauge, Vessel, put, t_handle
+from cadplants.families.instruments.pieces import BEFORE, FRONT, Gauge, Vessel, put, t_handle
 from cadplants.families.valves.valve import bolt_circle, disc_flange
 from cadplants.model.family import Model
 from cadplants.parts.flange import plate_thickness
@@ -25,7 +25,6 @@ _NAME, _HEAD, _PAD = "level gauge", "transmitter", 0.002
 _LOW, _SPAN, _MOUTH = "height of the lower nozzle", "from nozzle to nozzle", "nominal size of the nozzles"
 _ASIDE, _VESSEL, _WHEEL = "from the nozzles to the gauge's axis", "vessel beside it", "wheels on its cocks, not levers"
 _ELECTRONICS = "electronics"
-_READ = (0.0, -1.0, 0.0)  # out of a gauge beside a vessel
 
 
 class _Beside(Gauge, place="floor", label=_NAME, bundle=_NAME):
@@ -91,7 +90,7 @@ class Magnetic(_Beside, name="level gauge/magnetic", weight=1.5):
         aside.add(CASE, box((wide, 0.024, long + 0.06), (0, y, mid)))
         size = (0.5 * wide, 0.004, 0.6 * long / count)
         flags = [box(size, (0, y - 0.0139, low + (k + 0.5) * long / count)) for k in range(count)]
-        aside.add("gauge face", *flags, of="handle", front=_READ)
+        aside.add("gauge face", *flags, of="handle", front=BEFORE)
         straps = (low + 0.15 * long, mid, low + 0.85 * long)
         aside.add("clamp", *(ring(r, r + 0.002, z, z + 0.01, n) for z in straps), own=True)
         if self.sending:
@@ -139,7 +138,7 @@ class Reflex(_Beside, name="level gauge/reflex", weight=1.5):
             metal += [cylinder(0.008, low - 0.06, low, 10), hexagon(0.024, low - 0.065, low - 0.04)]
         t = t.at(x)
         t.add(_NAME, *metal)
-        t.add("gauge glass", *(along("-y", glass, 0, 0, z) for z in places for glass in glasses), front=_READ)
+        t.add("gauge glass", *(along("-y", glass, 0, 0, z) for z in places for glass in glasses), front=BEFORE)
         t.add("bolt", *(along("-y", one, 0, 0, z) for z in places for one in nuts))
         return t.model(kind=_NAME)
 
@@ -166,7 +165,7 @@ class Tubular(_Beside, name="level gauge/tubular", weight=1.5):
         metal.append(along("-y", t_handle(0.05, 0.04), 0, -0.017, low - 0.006))
         t.add(_NAME, *metal, cylinder(0.006, low - 0.06, low - 0.01, 10))
         glass = ring(0.7 * r if t.style.hollow else 0.0, r, low + 0.03, high - 0.03, fine_sides(r, t.style))
-        t.add("gauge glass", glass, front=_READ)
+        t.add("gauge glass", glass, front=BEFORE)
         if self.guarded:
             bars = around(cylinder(0.0035, low + 0.024, high - 0.024, 8), self.bars, 0.02, np.pi / 4)
             rings = [ring(r + 0.006, 0.026, z, z + 0.006, 12) for z in (low + 0.026, high - 0.032)]
@@ -190,7 +189,7 @@ class FloatBoard(_Beside, name="level gauge/board"):
         t.add("bracket", *(box((0.5 * wide, 0.09, 0.03), (0, y + 0.05, s * tall)) for s in (0.12, 0.48, 0.84)))
         size, x = (0.5 * wide, 0.001, 0.008), -0.2 * wide
         ticks = [box(size, (x, y - 0.0064, s * tall)) for s in np.linspace(0.08, 0.88, 15)]
-        t.add("gauge face", box((wide, 0.012, 0.88 * tall), (0, y, 0.48 * tall)), *ticks, front=_READ)
+        t.add("gauge face", box((wide, 0.012, 0.88 * tall), (0, y, 0.48 * tall)), *ticks, front=BEFORE)
         pulley = along("x", merge([cylinder(0.035, -0.004, 0.004, 16), cylinder(0.008, -0.02, 0.02, 8)]))
         z, inner, y = tall + 0.09, -0.6 * radius, y - 0.024
         metal = [box((0.05, 0.04, 0.1), (0, place, tall + 0.06)) for place in (inner, -0.93 * radius)]
@@ -200,7 +199,7 @@ class FloatBoard(_Beside, name="level gauge/board"):
         way = [(0, inner, tall + 0.01), (0, inner, z + 0.035), (0, y + 0.035, z + 0.035), (0, y, z), (0, y, stop)]
         t.add(_NAME, *metal, rope(way, 0.003, 8))
         pointer = box((0.7 * wide, 0.01, 0.03), (0.05 * wide, y + 0.008, stop))
-        t.add("gauge needle", pointer, box((0.06, 0.03, 0.05), (0, y, stop)), of="handle", front=_READ)
+        t.add("gauge needle", pointer, box((0.06, 0.03, 0.05), (0, y, stop)), of="handle", front=BEFORE)
         return t.model(kind=_NAME)
 
 

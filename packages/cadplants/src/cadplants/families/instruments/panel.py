@@ -10,7 +10,7 @@ from cadplants.builder.dials import CASE, STEM, Dial, Indicator, Shank, Standing
 from cadplants.builder.draws import made
 from cadplants.builder.params import Params, among, between, chance, given, nested, several, whole
 from cadplants.builder.table import Table
-from cadplants.families.instruments.pieces import FRONT, Board, Gauge, Stand, bent, put, t_handle
+from cadplants.families.instruments.pieces import BEFORE, FRONT, Board, Gauge, Stand, bent, put, t_handle
 from cadplants.families.valves.valve import bolt_circle, disc_flange
 from cadplants.model.family import Model
 from cadplants.model.plant import Turning
@@ -258,10 +258,10 @@ class UTube(_Mounted, name="gauge/u-tube"):
         turn = np.linspace(np.pi, 2 * np.pi, 9)
         foot = [(apart * np.cos(a), y, low + apart * (1 + np.sin(a))) for a in turn]
         path = [(-apart, y, low + span), *foot, (apart, y, low + span)]
-        t.add("gauge glass", rope(path, 0.0055, fine_sides(0.0055, t.style, 10)), front=(0.0, -1.0, 0.0))
+        t.add("gauge glass", rope(path, 0.0055, fine_sides(0.0055, t.style, 10)), front=BEFORE)
         ticks = [box((0.8 * apart, 0.001, 0.0015), (0, -0.0145, low + s * span)) for s in np.linspace(0.12, 0.9, 14)]
         scale = box((1.1 * apart, 0.002, 0.9 * span), (0, -0.013, low + 0.52 * span))
-        t.add("gauge face", scale, *ticks, front=(0.0, -1.0, 0.0))
+        t.add("gauge face", scale, *ticks, front=BEFORE)
         for x in (-apart, apart):
             put(t.at(x, y, low + span - 0.005), STEM, cylinder(0.009, 0.0, 0.03, 12), hexagon(0.022, 0.02, 0.035))
             way = [(x, y, low + span + 0.025), (x, y, low + span + 0.09), (3.5 * x, y, low + span + 0.07)]

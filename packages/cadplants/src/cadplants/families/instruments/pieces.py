@@ -21,10 +21,12 @@ from cadplants.solids.polygon import rounded_rectangle
 from cadplants.solids.primitives import box, cylinder, dome, hexagon, ring, rod, rope, turned
 from cadplants.styles.modeling_style import ModelingStyle
 
-__all__ = ["FRONT", "Board", "Gauge", "Stand", "Vessel", "bent", "put", "t_handle"]
+__all__ = ["BEFORE", "FRONT", "Board", "Gauge", "Stand", "Vessel", "bent", "put", "t_handle"]
 
 FRONT = (0.0, 0.0, 1.0)
 """Out of a dial about z."""
+BEFORE = (0.0, -1.0, 0.0)
+"""Out of what is read from before a device that stands upright."""
 
 
 def t_handle(reach: float, wide: float, radius: float = 0.004) -> Solid:

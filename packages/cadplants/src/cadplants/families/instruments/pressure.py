@@ -9,7 +9,7 @@ from cadplants.builder.dials import STEM, Gland, Housing
 from cadplants.builder.draws import one_of
 from cadplants.builder.params import Params, among, between, chance, given, nested, several
 from cadplants.builder.table import Table, outline
-from cadplants.families.instruments.pieces import FRONT, Gauge, Stand, bent, put, t_handle
+from cadplants.families.instruments.pieces import BEFORE, FRONT, Gauge, Stand, bent, put, t_handle
 from cadplants.families.instruments.sight import SIGHT_GLASS, SightGlass
 from cadplants.families.valves.threaded import hex_end
 from cadplants.families.valves.valve import bolt_circle, disc_flange, flanged_body
@@ -151,9 +151,9 @@ class SwitchBox(_Transmitter, name="transmitter/switch box"):
         axis, s = ("x", 1) if self.right else ("-x", -1)
         t.add(NAME, *case, along(axis, self.gland.solid(t.style), 0.5 * s * wide, 0, low + 0.25 * high), of=self.metal)
         scale = box((0.4 * wide, 0.003, 0.55 * high), (0, -deep / 2 - 0.0042, low + 0.55 * high))
-        t.add("gauge face", scale, front=(0.0, -1.0, 0.0))
+        t.add("gauge face", scale, front=BEFORE)
         place = (0.05 * wide, -deep / 2 - 0.0065, low + self.mark * high)
-        t.add("gauge needle", box((0.2 * wide, 0.002, 0.004), place), front=(0.0, -1.0, 0.0))
+        t.add("gauge needle", box((0.2 * wide, 0.002, 0.004), place), front=BEFORE)
         return t.model(kind="pressure switch")
 
 
@@ -292,7 +292,7 @@ class BoltedWindows(SightGlass, name="sight glass/bolted windows", sizes=sizes_b
         covers = [along(axis, cover, x) for axis in ("y", "-y")]
         t.add(SIGHT_GLASS, flanged_body(self.dn, t.style, long, middle), core, *covers, of="valve")
         glass = cylinder(0.99 * pane, reach + 0.0005, reach + 0.6 * thick, n)
-        t.add("gauge glass", *(along(axis, glass, x) for axis in ("-y", "y")), front=(0.0, -1.0, 0.0))
+        t.add("gauge glass", *(along(axis, glass, x) for axis in ("-y", "y")), front=BEFORE)
         bolts = [bolt_circle(k, far, 0.006 + 0.1 * pane, reach - 0.002, high) for k in self.bolts or (4, 4)]
         t.add("bolt", *(along(axis, some, x) for axis, some in zip(("y", "-y"), bolts, strict=True)))
         if self.pointed:
@@ -324,7 +324,7 @@ class Threaded(SightGlass, name="sight glass/threaded", sizes=_SMALL):
         body += [along(axis, turned(nut, 8 if self.octagonal else n), x) for axis in axes]
         t.add(SIGHT_GLASS, *body, of="handle" if self.painted else "trim")
         panes = [along(axis, dome(0.8 * r, 0.25 * r, deep + 0.012, n), x) for axis in axes]
-        t.add("gauge glass", *panes, front=(0.0, -1.0, 0.0))
+        t.add("gauge glass", *panes, front=BEFORE)
         return t.model(length, "welded", SIGHT_GLASS)
 
 

@@ -13,8 +13,8 @@ from cadplants.families.steel.shape import (
     Structure,
     grid,
     lug,
-    raking,
     rect,
+    strings,
 )
 from cadplants.model.family import Model
 from cadplants.solids.mesh_ops import Solid, extrude, merge, moved, sweep
@@ -262,12 +262,11 @@ class Flight(Structure, name="stairs/flight", weight=1.5, grain="fitting"):
         sides = [s * wide / 2 for s in BOTH]
         # The strings' axes run through the middles of the treads.
         lift = self.rise / 2 - 0.04
-        start, rising = -lift * go / self.rise, t.at(0, 0, lift)
-        rising.add_each("beam", [raking((start, y, -lift), (run, y, height), (outline, ())) for y in sides])
+        strings(t, (outline, ()), sides, run, height, lift)
         tread = self.tread.solids(go, wide)
         for k in range(self.count):
             t.at((k + 0.5) * go, 0, (k + 1) * self.rise - 0.04).add("stair tread", *tread)
-        own = rising.bundled("railing")
+        own = t.at(0, 0, lift).bundled("railing")
         for y in sides if self.railed else ():
             own.add("railing", rod((0, y, 0.95), (run, y, height + 0.95), 0.02, n))
             feet = [(f * run, y, f * height) for f in (0.05, 0.5, 0.95)]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any, TypeVar
 
 import numpy as np
@@ -44,6 +44,7 @@ __all__ = [
     "slab_xz",
     "slab_yz",
     "span_of",
+    "strings",
     "trolley",
 ]
 
@@ -241,6 +242,14 @@ def slab_yz(outline: npt.ArrayLike, thick: float, x: float = 0.0, holes: tuple[F
     """An upright plate over an outline in y and z, its middle at ``x`` [m]."""
     one = extrude(np.asarray(outline, float), -thick / 2, thick / 2, holes)
     return Solid(one.vertices[:, [2, 0, 1]] + (x, 0, 0), one.faces)
+
+
+def strings(t: Table, one: Section, ys: Iterable[float], run: float, height: float, lift: float) -> None:
+    """Puts down the strings of a flight along x, whose axes are a ``lift`` over the line of its treads' edges, cut at
+    floor and landing [m].
+    """
+    start = -lift * run / height
+    t.at(0, 0, lift).add_each("beam", [raking((start, y, -lift), (run, y, height), one) for y in ys])
 
 
 def bolts(t: Table, poses: Sequence[Floats], d: float, grip: float = 0.02, through: bool = False) -> None:

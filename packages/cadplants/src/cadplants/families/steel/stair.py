@@ -24,6 +24,7 @@ from cadplants.families.steel.shape import (
     slab_xy,
     slab_xz,
     span_of,
+    strings,
 )
 from cadplants.model.family import Model
 from cadplants.solids.primitives import BOTH, CORNERS, box, cylinder, dome, ring
@@ -162,9 +163,7 @@ class SteelFlight(Structure, name="stairs/strings and spine", weight=1.5, grain=
             t.add("beam", bar((0.0, 0, rise - drop), (run - go, 0, h - drop), one))
         else:
             one = section(self.string, self.size, t.style)
-            lift = _lift(self)
-            start = -lift * go / rise
-            t.at(0, 0, lift).add_each("beam", [raking((start, s * y, -lift), (run, s * y, h), one) for s in BOTH])
+            strings(t, one, [s * y for s in BOTH], run, h, _lift(self))
 
     def _rails(self, t: Table, run: float, h: float) -> None:
         """Railings, over a run and a height [m]."""
@@ -227,9 +226,8 @@ class Zigzag(Structure, name="stairs/zigzag", weight=0.7, grain="fitting"):
         line = [(0.0, 0.0), *((x, (k + 1) * rise) for k in range(n) for x in (k * go, (k + 1) * go))]
         of = "steel" if thick < 0.02 else "concrete"
         t.add("stair tread", slab_xz(ribbon(np.array(line), thick), wide), of=of)
-        for s in BOTH if self.stringed else ():
-            string = raking((-0.06 * go / rise, s * y, 0.0), (run, s * y, h + 0.06), (rect(0.01, 0.28), ()))
-            t.add("beam", string)
+        if self.stringed:
+            strings(t, (rect(0.01, 0.28), ()), [s * y for s in BOTH], run, h, 0.06)
         tall = h - thick / 2
         t.add(self.back, box((0.2, wide, tall), (run - 0.1, 0, tall / 2)))
         return t.model()

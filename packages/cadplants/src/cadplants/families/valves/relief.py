@@ -42,16 +42,14 @@ class Cap(Params):
             pin = t.at(0, -side * 0.35 * w, 1.3 * tall).along("x")
             pin.add("valve stem", cylinder(0.07 * w, -0.34 * w, 0.34 * w, 8))
             ways = ((-0.5 * w, 1.3 * tall), (0.5 * long, 1.2 * tall), (0.7 * long, -0.3 * long))
-            arm = rope(bend([(0, side * y, z) for y, z in ways], 0.12 * long), 0.13 * w, 8)
-            t.add("lever", arm)
+            t.add("lever", rope(bend([(0, side * y, z) for y, z in ways], 0.12 * long), 0.13 * w, 8))
             return
         z = 0.65 * tall
         t.add("valve bonnet", stout, along("x", cylinder(0.3 * w, 0.2 * w, 0.7 * w, 12), 0, 0, z))
         shaft = t.at(0, 0, z).along("x")
         shaft.add("valve stem", cylinder(0.1 * w, 0.4 * w, 1.05 * w, 8))
         shaft.add("gland", hexagon(0.4 * w, 0.7 * w, 0.82 * w))
-        arm = box((0.12 * w, long, 0.35 * w), (0.95 * w, side * 0.44 * long, z))
-        t.add("lever", arm)
+        t.add("lever", box((0.12 * w, long, 0.35 * w), (0.95 * w, side * 0.44 * long, z)))
 
 
 class _Safety(Valve, place="head", sizes=MID):

@@ -517,8 +517,7 @@ class Relief(Valve, name="relief valve/spring", sizes=MID, place="head", weight=
         bolts = bolt_circle(4, 1.17 * b, min(0.024, 0.16 * b), low - 0.15 * b, low + 0.15 * b)
         t.add("bolt", about_x(bolts))
         if self.levered:
-            pin, tip = (low + 1.2 * tall, 0.0, 0.3 * b), (low + 0.75 * tall, 0.0, 1.6 * b)
-            t.add("lever", rod(pin, tip, 0.1 * b, 8))
+            t.add("lever", rod((low + 1.2 * tall, 0.0, 0.3 * b), (low + 0.75 * tall, 0.0, 1.6 * b), 0.1 * b, 8))
         return t.model(kind="relief valve")
 
 

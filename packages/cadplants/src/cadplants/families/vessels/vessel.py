@@ -167,12 +167,8 @@ class _Upright(Tank):
             self._stand(t, base, n)
         ports = []
         for k, one in enumerate(self.nozzles):
-            dn, angle, z, reach = (
-                one.size,
-                2.2 * k + one.turn,
-                base + height * one.height,
-                0.08 + PIPES[one.size].radius,
-            )
+            dn, angle, z = one.size, 2.2 * k + one.turn, base + height * one.height
+            reach = 0.08 + PIPES[dn].radius
             _beside(t, r, z, angle).extend(nozzle(dn, reach, t.style))
             way = np.array([np.cos(angle), np.sin(angle), 0.0])
             ports += [Port(looking(way * (r + reach) + (0, 0, z), way), dn)] if z > 0.6 else []
