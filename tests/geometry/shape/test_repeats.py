@@ -161,6 +161,14 @@ def test_float32_coordinates_far_from_the_origin_stay_one_shape():
     assert found(*rounded).n_shapes == 1
 
 
+def test_details_finer_than_the_digits_of_a_far_mesh_vanish_from_the_near_one():
+    profile = [(0.0, 0.0), (0.3, 0.0), (0.3, 0.5), (0.29997, 0.50002), (0.0, 0.50002)]  # a chamfer of 30 micrometres
+    vertices, faces = shapes.lathe(profile)
+    far = vertices + np.array([170.0, 150.0, 100.0])
+    assert position_tolerance(measure(Scene.from_meshes([(far, faces)])))[0] > 6e-5
+    assert found(scrambled((vertices, faces), 1), scrambled((far, faces), 2)).n_shapes == 1
+
+
 def test_deviation_beyond_the_tolerance_is_another_shape():
     vertices, faces = hook()
     scene = Scene.from_meshes([(vertices, faces)])

@@ -89,7 +89,7 @@ def find_shapes(scene: Scene, properties: Properties, workers: int | None = None
     mirrors = np.full(n, -1, np.int64)
     turn = np.tile(np.eye(3), (n, 1, 1))
     shift = np.zeros((n, 3))
-    kernels = _Kernels(scene, properties, tolerance, workers)
+    kernels = _Kernels(scene, properties, tolerance, _largest_of(bucket, tolerance), workers)
     open_meshes = np.arange(n)
     while len(open_meshes):
         _, at, group = np.unique(bucket[open_meshes], return_index=True, return_inverse=True)
@@ -168,16 +168,35 @@ def _buckets(properties: Properties, looks: Floats, slack: Floats) -> Ints:
     return bucket.astype(np.int64)
 
 
-class _Kernels:
-    """Compares pairs of meshes of one scene; welds each mesh at most once."""
+def _largest_of(bucket: Ints, values: Floats) -> Floats:
+    """``(n,)`` the largest of the values in the bucket of each."""
+    largest = np.zeros(int(bucket.max(initial=-1)) + 1)
+    np.maximum.at(largest, bucket, values)
+    return largest[bucket]
 
-    def __init__(self, scene: Scene, properties: Properties, tolerance: Floats, workers: int | None) -> None:
+
+class _Kernels:
+    """Compares pairs of meshes of one scene; welds each mesh at most once.
+
+    Args:
+        scene: any.
+        properties: of its meshes.
+        tolerance: ``(n,)`` how far apart positions of each mesh may be and still count as equal [m].
+        weld: ``(n,)`` the same where corners of one mesh are joined; of meshes that are compared with each other, even
+            if one of them lies farther from the origin, so that details finer than its digits vanish from both.
+        workers: threads.
+    """
+
+    def __init__(
+        self, scene: Scene, properties: Properties, tolerance: Floats, weld: Floats, workers: int | None
+    ) -> None:
         self.vertices, self.faces = readable(scene.vertices, np.float64), readable(scene.faces, np.int32)
         self.v_offsets, self.f_offsets = (
             readable(scene.vertex_offsets, np.int64),
             readable(scene.face_offsets, np.int64),
         )
         self.centroid, self.tolerance = readable(properties.centroid, np.float64), readable(tolerance, np.float64)
+        self.weld = readable(weld, np.float64)
         self.workers = workers
         self.n_spots = np.full(scene.n_meshes, -1, np.int64)
         self.spots = np.empty((0, 3))
@@ -227,7 +246,7 @@ class _Kernels:
 
         def weld_these(low: int, high: int) -> None:
             weld_range(
-                self.vertices, self.faces, self.v_offsets, self.f_offsets, self.centroid, self.tolerance,
+                self.vertices, self.faces, self.v_offsets, self.f_offsets, self.centroid, self.weld,
                 meshes, low, high, self.spots, self.normals, self.reach, self.n_spots,
             )  # fmt: skip
 
