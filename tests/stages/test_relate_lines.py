@@ -318,6 +318,17 @@ def test_a_two_piece_valve_is_one():
     assert graph.units()[0].kind == "ball valve"
 
 
+def test_a_lever_that_rests_on_the_other_half_of_a_body_makes_no_second_valve():
+    plant = Plant()
+    for x in (0.9555, 1.0445):
+        plant.add(turned(shapes.tube(0.06, R, 0.089), (x, 0, 0), (1, 0, 0)), VALVE, "valve body")
+    plant.add(shapes.box((0.03, 0.03, 0.12), (1.03, 0, 0.1)), VALVE, "valve stem")
+    lever = merged(shapes.box((0.2, 0.03, 0.01), (0.96, 0, 0.165)), shapes.box((0.03, 0.03, 0.1), (0.92, 0, 0.11)))
+    plant.add(lever, VALVE, "lever")
+    plant.pipe((0, 0, 0), (0.911, 0, 0)).pipe((1.089, 0, 0), (2, 0, 0))
+    assert links(plant.graph()) == [("V-001", "open"), ("V-001", "open")]
+
+
 def test_valves_whose_wheels_touch_stay_two():
     plant = Plant()
     for y in (0.0, 0.175):

@@ -43,13 +43,13 @@ def plant(name):
     return [scene.mesh(i) for i in range(scene.n_meshes)], scene.paths, labels
 
 
-def network(name, change=None, labeler="none"):
+def network(name, change=None, labeler="none", least=None):
     """What is connected with what: units by their first mesh, junctions and ends by their kind."""
     meshes, paths, labels = plant(name)
     random = np.random.default_rng(0)
     if change is not None:
         meshes = [CHANGE[change](mesh, random) for mesh in meshes]
-    config = Config().replace({"label.labeler": labeler, "ground.find": "none"})
+    config = Config().replace({"label.labeler": labeler, "label.min_confidence": least, "ground.find": "none"})
     graph = build(Scene.from_meshes(meshes, paths), config, labels=labels)
     known = {part.id: part.meshes for part in graph.of_layer(Part)}
     names = {unit.id: min(mesh for part in unit.parts for mesh in known[part]) for unit in graph.of_layer(Unit)}
@@ -70,3 +70,9 @@ def as_drawn(name, labeler):
 )
 def test_other_triangles_give_the_same_network(name, labeler, change):
     assert network(name, change, labeler) == as_drawn(name, labeler)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("least", [0.25, 0.35, 0.5])
+def test_from_where_on_labels_are_given_changes_no_connection(least):
+    assert network("plm", None, "embedded", least) == as_drawn("plm", "embedded")

@@ -178,7 +178,7 @@ def test_a_disc_on_the_end_of_a_line_closes_it():
         sketch = Sketch()
         sketch.pipe((-1, 0, 0), (0, 0, 0), source="author")
         disc = pipe((0, 0, 0), (thick, 0, 0), wide, None)
-        sketch.add(disc, TANK, "nozzle", sure=0.3, likely={NAMES["tank"]: 0.3})
+        sketch.add(disc, TANK, "nozzle", sure=0.6, likely={NAMES["tank"]: 0.3})
         return 1 in recover_units(sketch.piping()).lineless
 
     assert taken(0.4 * R, R)

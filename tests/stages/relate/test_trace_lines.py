@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import shapes
-from cadgraph.model.labels import Label
+from cadgraph.model.labels import Guess, Label
 from cadgraph.stages.relate import trace
 from piping import PIPE, STEEL, VALVE, R, bend, pipe, ring, turned
 from runs import BRIDGE, run, touching
@@ -123,6 +123,17 @@ def test_a_short_cylinder_at_the_end_of_a_pipe_is_a_piece_of_it_if_it_is_as_wide
 @pytest.mark.parametrize(("radius", "found"), [(1.3, True), (0.35, True), (0.25, False)])
 def test_between_two_pipes_a_short_cylinder_needs_to_be_as_wide_as_a_reducing_flange_allows(radius, found):
     assert (0 in lines(unsure(radius=radius))) is found
+
+
+@pytest.mark.parametrize(("sure", "found"), [(0.49, True), (0.51, False)])
+def test_what_the_labeler_holds_for_likelier_no_valve_is_what_the_line_makes_of_it(sure, found):
+    wider = unsure(sure, radius=1.4, n_pipes=1)
+    assert (0 in lines(wider)) is found
+    guesses = [Guess(VALVE, "valve bonnet", 0.3), Guess(PIPE, "flange", 0.2)]
+    split = unsure(sure, radius=1.4, n_pipes=1, guesses=[*guesses, Guess(VALVE, "valve disc", 0.21)])
+    assert 0 not in lines(split), "its group is likely"
+    other = unsure(sure, radius=1.4, n_pipes=1, source="lvlm", opinion=Label(VALVE, None, 0.3, "geometry"))
+    assert 0 not in lines(other), "somebody else says so"
 
 
 def test_what_somebody_named_valve_is_none_of_these():

@@ -20,6 +20,8 @@ corrected, and catalogues."""
 
 # A second opinion counts from this confidence on.
 _CONFIDENT = 0.55
+# What the labeler alone says of a group counts from even odds on; below, what lies around the part decides.
+_LIKELY = 0.5
 # A label whose group it gives at least this probability stands. By Bayes' rule: where a fifth of the labels are wrong
 # at random over nine groups, a label is right at even odds if the second opinion gives its group a 32nd of its own.
 _POSSIBLE = 0.03
@@ -60,7 +62,11 @@ def find_roles(parts: Parts, labels: Sequence[Label | None], guessed: Sequence[L
         labels: label of each part, None where it has none.
         guessed: label that the embedded labeler alone gives each part.
     """
-    said = [_said(label) for label in labels]
+    said = [
+        (None, None) if label is guess and _is_tentative(label) else _said(label)
+        for label, guess in zip(labels, guessed, strict=True)
+    ]
+    followed = [group for group, _ in said]
     majority = _majorities(parts, labels)
     doubtful = _are_doubtful(labels, guessed)
     if doubtful:
@@ -69,13 +75,21 @@ def find_roles(parts: Parts, labels: Sequence[Label | None], guessed: Sequence[L
             for part, (label, guess) in enumerate(zip(labels, guessed, strict=True))
         ]
     groups, names = tuple(group for group, _ in said), tuple(name for _, name in said)
-    doubted = tuple(part for part, label in enumerate(labels) if label is not None and groups[part] != label.group)
+    doubted = tuple(part for part, group in enumerate(followed) if group is not None and groups[part] != group)
     return Roles(groups, names, doubted, doubtful, _backed(parts, groups, guessed, majority))
 
 
 def _said(label: Label | None) -> tuple[str | None, str | None]:
     """The group and name that a label gives."""
     return (None, None) if label is None else (label.group, label.name)
+
+
+def _is_tentative(guess: Label | None) -> bool:
+    """Whether the labeler holds the group that it gives for likelier wrong than right."""
+    if guess is None:
+        return True
+    likely = sum(one.confidence for one in guess.guesses if one.group == guess.group)
+    return max(likely, guess.confidence) < _LIKELY
 
 
 def _weighed(
@@ -159,7 +173,7 @@ def likely_lines(
     connectors, unit_of = vocabulary.connector_groups, vocabulary.unit_of_group
     functional = [group in connectors or group in unit_of for group in roles.groups]
     # Two say that it is something else: then it is.
-    connecting = [guess is None or guess.group in connectors for guess in guessed]
+    connecting = [_is_tentative(guess) or _said(guess)[0] in connectors for guess in guessed]
     possible = np.array(connecting, np.bool_) & ~np.array(functional, np.bool_) & ~np.array(ground, np.bool_)
     pairs = np.concatenate([contacts.pairs, contacts.pairs[:, ::-1]])
     near = possible[pairs[:, 0]] & np.array(functional, np.bool_)[pairs[:, 1]]

@@ -337,13 +337,17 @@ def _pairs_within(parts: Sequence[int], near: Mapping[int, Sequence[int]]) -> li
 def _holders(
     parts: Parts, pairs: Sequence[tuple[int, int]], mounts: Mapping[int, Sequence[int]], found: Attachments
 ) -> set[int]:
-    """Bodies with an operator of their own: a part on that body alone that stands out from it."""
-    touched: dict[int, set[int]] = {}
+    """Bodies with an operator of their own: a part on that body alone that stands out from it.
+
+    A lever that rests on one half of a body and turns the stem in the other half is neither's own.
+    """
+    on: dict[int, set[int]] = {}
     for a, b in pairs:
         for part, body in ((a, b), (b, a)):
             if part not in mounts and body in mounts:
-                touched.setdefault(part, set()).add(body)
-    alone = [(part, body) for part, bodies in touched.items() if len(bodies) == 1 for body in bodies]
+                on.setdefault(part, set()).add(body)
+    shared = {part for a, b in pairs if a in on and b in on and on[a].isdisjoint(on[b]) for part in (a, b)}
+    alone = [(part, body) for part, bodies in on.items() if len(bodies) == 1 and part not in shared for body in bodies]
     return {
         body
         for part, body in alone
