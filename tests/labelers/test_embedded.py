@@ -45,6 +45,21 @@ def said(scene):
     return dict(zip(parts.scene.paths, EmbeddedLabeler().label(parts, contacts, VOCABULARY).answers, strict=True))
 
 
+def given(scene):
+    """Labels that are given, as group and name; None for what stays open, whatever is likeliest there."""
+    parts, contacts = make_parts_from(scene)
+    labeling = EmbeddedLabeler().label(parts, contacts, VOCABULARY)
+    return {
+        path: (label.group, label.name) if label and label.confidence >= least else None
+        for path, label, least in zip(parts.scene.paths, labeling.answers, labeling.thresholds, strict=True)
+    }
+
+
+def contradict(one, other):
+    """Whether two labels can't both be true: of other groups, or of other names where both have one."""
+    return one and other and (one[0] != other[0] or (None not in (one[1], other[1]) and one[1] != other[1]))
+
+
 def changed(scene, how):
     """The same scene told otherwise."""
     random = np.random.default_rng(5)
@@ -73,9 +88,8 @@ def test_labels_follow_the_shapes_and_not_their_triangles_or_pose(riser, how):
     assert np.mean(same) >= SAME
 
 
-NEARLY = {"moved by 1 km": 0.995, "turned": 0.995, "mirrored": 0.995, "quartered": 0.985, "shuffled": 0.995}
-"""On plants of few parts, and of shapes that nearly repeat each other: which of them count as repeats still depends a
-little on their triangles."""
+NEARLY = {"moved by 1 km": 0.99, "turned": 0.99, "mirrored": 0.99, "quartered": 0.97, "shuffled": 0.99}
+"""Of few parts, some of which sit on the fence: they may lose a label or its name, yet never get another."""
 
 
 @pytest.mark.slow
@@ -85,11 +99,12 @@ def test_labels_of_real_plants_follow_the_shapes_as_well(plant):
     if not path.is_file():
         pytest.skip("no real plants here")
     scene = load(path)
-    first = said(scene)
+    first = given(scene)
     for how in CHANGES:
-        second = said(changed(scene, how))
-        same = [(one.group, one.name) == (second[path].group, second[path].name) for path, one in first.items() if one]
-        assert np.mean(same) >= NEARLY[how], how
+        second = given(changed(scene, how))
+        pairs = [(label, second[path]) for path, label in first.items()]
+        assert np.mean([one == other for one, other in pairs]) >= NEARLY[how], how
+        assert not [pair for pair in pairs if contradict(*pair)], how
 
 
 @pytest.mark.slow

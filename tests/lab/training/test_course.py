@@ -2,12 +2,13 @@
 
 import csv
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from cadgraph.labelers.embedded.model import STRANGE
-from cadlab.training.figure import Answers, least_confidence, score
+from cadlab.training.figure import Answers, error_of_families, least_confidence, score
 from cadlab.training.real import read_real_parts, read_real_plants, side_by_side
 from cadlab.training.samples import Sample, held_out_lessons, training_samples
 from cadplants.presets.authoring_systems import SYSTEMS
@@ -34,6 +35,14 @@ def test_strangers_count_against_the_threshold_but_not_in_the_score():
         pytest.approx(2 / 3),
         1,
     )
+
+
+def test_parts_of_one_family_are_one_chance():
+    said = answers(["a/x"] * 8, ["a/x"] * 4 + ["b/z"] * 4, [0.9] * 8)
+    alone = replace(said, family=np.arange(8))
+    together = replace(said, family=np.repeat([0, 1], 4))
+    assert error_of_families(alone) == pytest.approx((0.5 / 8**0.5, 0.5 / 8**0.5))
+    assert error_of_families(together) == pytest.approx((0.5 / 2**0.5, 0.5 / 2**0.5))
 
 
 def test_lessons_know_every_system_and_trials_name_each():

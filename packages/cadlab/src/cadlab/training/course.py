@@ -87,7 +87,7 @@ class Course:
     others: int = 48
     members: int = 5
     folds: int = 4
-    seeds: int = 1
+    seeds: int = 3
     ablations: bool = True
     recipe: Recipe = field(default_factory=Recipe)
 

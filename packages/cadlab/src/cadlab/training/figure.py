@@ -14,7 +14,17 @@ from cadgraph.labelers.embedded.model import STRANGE, Model, softmax
 from cadgraph.model.scene import Floats, Ints
 from cadlab.training.example import Example, Texts
 
-__all__ = ["Answers", "Scores", "answer", "calibration_error", "joined", "least_confidence", "score", "temperature"]
+__all__ = [
+    "Answers",
+    "Scores",
+    "answer",
+    "calibration_error",
+    "error_of_families",
+    "joined",
+    "least_confidence",
+    "score",
+    "temperature",
+]
 
 _BINS = 15
 _NO_LABEL = ("", "/")  # of what the truth doesn't name, such as insulation
@@ -143,6 +153,23 @@ def score(answers: Answers, threshold: float) -> Scores:
         calibration_error(answers.confidence, right), float(kept.mean()),
         float((answers.group == answers.true_group)[kept].mean()) if kept.any() else float("nan"),
     )  # fmt: skip
+
+
+def error_of_families(answers: Answers) -> tuple[float, float]:
+    """Standard errors of the shares of groups and of names that are right, had other families been held out: the parts
+    of one family are right or wrong together (the cluster-robust error of a mean).
+
+    Args:
+        answers: about any parts, strangers left out.
+    """
+    answers = answers.where(~answers.strange)
+    family = np.unique(answers.family, return_inverse=True)[1].reshape(-1)
+
+    def error(right: npt.NDArray[np.bool_]) -> float:
+        off = np.bincount(family, weights=right - right.mean()) if len(right) else np.zeros(1)
+        return float(np.sqrt((off**2).sum()) / max(len(right), 1))
+
+    return error(answers.group == answers.true_group), error(answers.name == answers.truth)
 
 
 def _macro(answers: Answers) -> float:

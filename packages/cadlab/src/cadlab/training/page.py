@@ -10,7 +10,7 @@ import numpy as np
 from cadgraph.labelers.embedded.model import Model
 from cadlab.markdown import table
 from cadlab.training.course import ALONE, PRECISION, SURE, Trials
-from cadlab.training.figure import Answers, Scores, answer, score
+from cadlab.training.figure import Answers, Scores, answer, error_of_families, score
 from cadlab.training.real import RealPart
 
 __all__ = ["write_page"]
@@ -87,7 +87,9 @@ then about the parts of these families in them, then about single real parts of 
 The thresholds come from here: a label is given from where {precision:.0%} of the groups of held-out families are right;
 to parts that touch nothing from where {alone_precision:.0%} are of held-out makers' single parts, and nine of ten
 strangers among them stay open; it is sure from where {sure_precision:.0%} are right of these families and makers
-together, strangers counted as wrong.
+together, strangers counted as wrong. Families are right or wrong as a whole: had others been held out, or as many been
+drawn again, the figures about them would be others by some {families_group:.1f} points (groups) and
+{families_name:.1f} (names; standard errors).
 
 By held-out system:
 
@@ -183,6 +185,7 @@ def write_page(trials: Trials, parts: Sequence[RealPart], size: int, families: i
     model, least, alone = trials.model, trials.model.threshold, trials.model.alone
     told = {name: answer(model, plants) for name, plants in trials.plants.items()}
     real = {name: _without_fasteners(a) for name, a in trials.real.items()}
+    of_group, of_name = error_of_families(trials.families)
     systems = sorted(set(trials.systems.style.tolist()))
     return _TEXT.format(
         members=_WORDS[len(model.members)], weights=sum(int(v.size) for m in model.members for v in m.weights.values()),
@@ -204,6 +207,7 @@ def write_page(trials: Trials, parts: Sequence[RealPart], size: int, families: i
                 ("single real parts of held-out makers", alone, trials.makers),
             )
         ),
+        families_group=100 * of_group, families_name=100 * of_name,
         by_system=_table((s, score(_without_fasteners(trials.systems.where(trials.systems.style == s)), least))
                          for s in systems),
         styles=_table(
