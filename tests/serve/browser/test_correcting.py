@@ -68,7 +68,7 @@ def test_the_queue_needs_no_mouse(page, server):
     page.press("Enter")
     until(lambda: question(page) != start, "the next question")
     until(lambda: corrected(page), "it is confirmed")
-    assert page.parts["name"][row] == "sight glass"
+    until(lambda: page.parts["name"][row] == "sight glass", "the part has its name")
     assert page.parts["source"][row] == "human"
     assert "sight glass" in page.text("review-last").lower()
     answer(page, "s")

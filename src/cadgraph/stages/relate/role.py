@@ -62,10 +62,7 @@ def find_roles(parts: Parts, labels: Sequence[Label | None], guessed: Sequence[L
         labels: label of each part, None where it has none.
         guessed: label that the embedded labeler alone gives each part.
     """
-    said = [
-        (None, None) if label is guess and _is_tentative(label) else _said(label)
-        for label, guess in zip(labels, guessed, strict=True)
-    ]
+    said = [_followed(label, guess) for label, guess in zip(labels, guessed, strict=True)]
     followed = [group for group, _ in said]
     majority = _majorities(parts, labels)
     doubtful = _are_doubtful(labels, guessed)
@@ -82,6 +79,11 @@ def find_roles(parts: Parts, labels: Sequence[Label | None], guessed: Sequence[L
 def _said(label: Label | None) -> tuple[str | None, str | None]:
     """The group and name that a label gives."""
     return (None, None) if label is None else (label.group, label.name)
+
+
+def _followed(label: Label | None, guess: Label | None) -> tuple[str | None, str | None]:
+    """The group and name that a label gives, unless only the labeler says so and holds it for likelier wrong."""
+    return (None, None) if label is guess and _is_tentative(guess) else _said(label)
 
 
 def _is_tentative(guess: Label | None) -> bool:

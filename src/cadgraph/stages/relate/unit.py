@@ -341,18 +341,28 @@ def _holders(
 
     A lever that rests on one half of a body and turns the stem in the other half is neither's own.
     """
+    return {
+        body
+        for part, body in _only_bodies_under(pairs, mounts)
+        if _reach(parts, part, mounts[body], found) > _reach(parts, body, mounts[body], found)
+    }
+
+
+def _only_bodies_under(pairs: Sequence[tuple[int, int]], bodies: Collection[int]) -> list[tuple[int, int]]:
+    """The parts that touch one body and no part that touches but others, each with that body."""
+    on = _bodies_under(pairs, bodies)
+    shared = {part for a, b in pairs if a in on and b in on and on[a].isdisjoint(on[b]) for part in (a, b)}
+    return [(part, next(iter(own))) for part, own in on.items() if len(own) == 1 and part not in shared]
+
+
+def _bodies_under(pairs: Sequence[tuple[int, int]], bodies: Collection[int]) -> dict[int, set[int]]:
+    """The bodies that each other part touches, of those that touch any."""
     on: dict[int, set[int]] = {}
     for a, b in pairs:
         for part, body in ((a, b), (b, a)):
-            if part not in mounts and body in mounts:
+            if part not in bodies and body in bodies:
                 on.setdefault(part, set()).add(body)
-    shared = {part for a, b in pairs if a in on and b in on and on[a].isdisjoint(on[b]) for part in (a, b)}
-    alone = [(part, body) for part, bodies in on.items() if len(bodies) == 1 and part not in shared for body in bodies]
-    return {
-        body
-        for part, body in alone
-        if _reach(parts, part, mounts[body], found) > _reach(parts, body, mounts[body], found)
-    }
+    return on
 
 
 def _reach(parts: Parts, part: int, rows: Sequence[int], found: Attachments) -> float:
