@@ -46,6 +46,7 @@ def cluster():
         made.shutdown()
 
 
+@pytest.mark.long
 def test_a_site_is_built_on_several_nodes_to_the_same_byte(cluster, tmp_path, capfd):
     run(DEMO_SCENE, tmp_path / "one", report=False)
     run(DEMO_SCENE, tmp_path / "two", report=False, ray=cluster.address)

@@ -168,7 +168,7 @@ def before(bodies):
     return described(*bodies)
 
 
-@pytest.mark.parametrize("mesher", SAME)
+@pytest.mark.parametrize("mesher", [pytest.param(m, marks=pytest.mark.long) if m == "flipped" else m for m in SAME])
 def test_other_triangles_change_nothing(bodies, before, mesher):
     random = np.random.default_rng(3)
     after = described(*(MESHERS[mesher](mesh, random) for mesh in bodies))

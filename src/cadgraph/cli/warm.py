@@ -7,6 +7,8 @@ the first run as quick as the next.
 from __future__ import annotations
 
 import sys
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
 
 import numpy as np
 
@@ -24,9 +26,21 @@ __all__ = ["warm_up"]
 
 
 def warm_up() -> None:
-    """Builds the graph of the demo scene, by which every kernel that a plant needs is compiled."""
+    """Builds the graph of the demo scene and draws some of it, by which every kernel that a plant needs is compiled.
+
+    The two run beside each other, as compiling takes one processor.
+    """
+    with ProcessPoolExecutor(2, get_context("spawn")) as pool:
+        for done in [pool.submit(_build_something), pool.submit(_draw_something)]:
+            done.result()
+
+
+def _build_something() -> None:
+    build(load(DEMO_SCENE))
+
+
+def _draw_something() -> None:
     scene = load(DEMO_SCENE)
-    build(scene)
     camera = frame(scene.mesh(0)[0], (1, -2, 1), (64, 64), margin=0.3)
     renderer = PairRenderer(scene)
     renderer.pair(0, camera, [1])
