@@ -17,7 +17,7 @@ from cadplants.parts.detail import Marks, plate
 from cadplants.parts.fastener import SUPPORT_REACH
 from cadplants.parts.pump import Pump, pump
 from cadplants.parts.structure import post
-from cadplants.presets.site import Placed, Site
+from cadplants.presets.site import Placed, Site, Work
 from cadplants.solids.transforms import at, spun
 from cadplants.styles.modeling_style import ModelingStyle
 
@@ -54,6 +54,9 @@ class _Plan:
         return [self.side * (k - (self.count - 1) / 2) * self.pitch for k in range(self.count)]
 
 
+_Work = Work[_Plan]
+
+
 def make_pumps(
     seed: int = 0, style: ModelingStyle | None = None, n_pumps: int = 0, marks: Marks | None = None
 ) -> Plant:
@@ -79,37 +82,29 @@ def make_pumps(
         discharge_z=float(rng.uniform(2.10, 2.60)),
         side=int(rng.choice([-1, 1])),
     )
+    work = _Work(site, style, choice, plan, rng)
     count, ys = plan.count, plan.ys
     suction_dn, pump_in, pump_out, discharge_dn = plan.sizes
     pumps = [pump(f"P-{k + 1}", pump_in, pump_out, style) for k in range(count)]
     axis = float(pumps[0].suction[2, 3])
     to_pumps = np.pi / 2 * plan.side
-    suction = _header(site, style, rng, choice, "S", (suction_dn, pump_in), plan, (plan.suction_x, axis), to_pumps)
-    discharge = _header(site, style, rng, choice, "D", (discharge_dn, pump_out), plan, (0.0, plan.discharge_z), np.pi)
+    suction = _header(work, "S", (suction_dn, pump_in), (plan.suction_x, axis), to_pumps)
+    discharge = _header(work, "D", (discharge_dn, pump_out), (0.0, plan.discharge_z), np.pi)
     for k, (y, one) in enumerate(zip(ys, pumps, strict=True)):
         base = site.add(one.assembly.placed(at(0, y, 0)))
         number = 10 * (k + 1)
         start = (float(one.suction[0, 3]), axis)
-        _suction(site, style, rng, choice, suction, number, base, plan, y, start)
+        _suction(work, suction, number, base, y, start)
         face = (float(one.discharge[0, 3]), float(one.discharge[2, 3]))
-        _discharge(site, style, rng, choice, discharge, number, base, plan, y, face)
+        _discharge(work, discharge, number, base, y, face)
         if marks == "all":
             _name(site, style, k + 1, base, one, y)
     return site.plant("pumps", seed, style)
 
 
-def _header(
-    site: Site,
-    style: ModelingStyle,
-    rng: np.random.Generator,
-    choice: Choice,
-    tag: str,
-    sizes: tuple[int, int],
-    plan: _Plan,
-    place: tuple[float, float],
-    roll: float,
-) -> Placed:
+def _header(work: _Work, tag: str, sizes: tuple[int, int], place: tuple[float, float], roll: float) -> Placed:
     """A header along y at x, z with a tee for each pump, a valve before its open end and a lid on the other."""
+    plan, rng = work.plan, work.rng
     x, z = place
     dn, branch = sizes
     count = plan.count
@@ -120,46 +115,37 @@ def _header(
     tees = [tee_at(y - low, f"J-{tag}{k + 1}", dn, branch, roll) for k, y in enumerate(ys)]
     kind = "butterfly" if rng.random() < 0.6 else "gate"
     unit = f"V-{tag}"
-    valve = choice.valve(high - low - 0.50, kind, unit, dn)
+    valve = work.choice.valve(high - low - 0.50, kind, unit, dn)
     dial = np.pi / 2 * plan.side
-    tap = choice.gauge(high - low - 0.86, f"G-{tag}", 100, float(rng.uniform(0.6, 2.6)), dial)
+    tap = work.choice.gauge(high - low - 0.86, f"G-{tag}", 100, work.needle(), dial)
     # Behind the pumps a relief valve guards the header.
-    taps = (tap,) if tag == "S" else (tap, choice.relief_valve(ys[-1] - low + 0.33, "V-R", int(rng.integers(1000))))
+    taps = (
+        (tap,) if tag == "S" else (tap, work.choice.relief_valve(ys[-1] - low + 0.33, "V-R", int(rng.integers(1000))))
+    )
     flow, reason = ("backward", "feeds the pumps") if tag == "S" else ("forward", "leaves the pumps")
-    run = Run(tag, dn, route, (*tees, valve), taps, ends=("blind", "flange"), flow=flow, reason=reason)
-    placed = site.lay(run, style)
+    run = Run(tag, dn, route, (*tees, valve), tuple(taps), ends=("blind", "flange"), flow=flow, reason=reason)
+    placed = work.site.lay(run, work.style)
     height = z - PIPES[dn].radius - SUPPORT_REACH
     side = 0.05 if height < 1 else 0.08
     for k in range(count + 1):
         y = ys[0] - 0.36 if k == 0 else ys[k - 1] + (0.5 * plan.pitch if k < count else 0.43)
-        stand = site.add(post(height, style, side, capped=True).placed(at(x, plan.side * y, 0)))
-        site.support(placed, y - low, stand + 2, style)
+        stand = work.site.add(post(height, work.style, side, capped=True).placed(at(x, plan.side * y, 0)))
+        work.site.support(placed, y - low, stand + 2, work.style)
     return placed
 
 
-def _suction(
-    site: Site,
-    style: ModelingStyle,
-    rng: np.random.Generator,
-    choice: Choice,
-    header: Placed,
-    number: int,
-    base: int,
-    plan: _Plan,
-    y: float,
-    face: tuple[float, float],
-) -> None:
+def _suction(work: _Work, header: Placed, number: int, base: int, y: float, face: tuple[float, float]) -> None:
     """From the header's tee to the pump."""
     x, z = face
-    sizes = plan.sizes[:2]
-    start = plan.suction_x + TEE_CENTER_TO_END[sizes[0]]
+    sizes = work.plan.sizes[:2]
+    start = work.plan.suction_x + TEE_CENTER_TO_END[sizes[0]]
     route = Route(np.array([(start, y, z), (x, y, z)]))
     node = f"J-S{number // 10}"
     unit, gauge = f"V-{number + 1}", f"G-{number + 1}"
-    kind = "gate" if rng.random() < 0.6 else "ball"
-    strained = bool(rng.random() < 0.5)
+    kind = "gate" if work.rng.random() < 0.6 else "ball"
+    strained = bool(work.rng.random() < 0.5)
     middle = (0.21 if strained else 0.40) * route.length
-    inline = [choice.valve(middle, kind, unit, sizes[1])]
+    inline = [work.choice.valve(middle, kind, unit, sizes[1])]
     if strained:
         inline.append(strainer_at(0.585 * route.length, sizes[1]))
     run = Run(
@@ -167,54 +153,43 @@ def _suction(
         sizes[1],
         route,
         tuple(inline),
-        (choice.gauge((0.85 if strained else 0.80) * route.length, gauge, 63, float(rng.uniform(0.6, 2.6))),),
+        (work.choice.gauge((0.85 if strained else 0.80) * route.length, gauge, 63, work.needle()),),
         ends=("open", "joint"),
         nodes=(node, f"P-{number // 10}"),
         arms=(TEE_CENTER_TO_END[sizes[0]], 0.0),
         flow="forward",
         reason="into the suction of a pump",
     )
-    site.lay(run, style, [header.device(node)], [base])
+    work.site.lay(run, work.style, [header.device(node)], [base])
 
 
-def _discharge(
-    site: Site,
-    style: ModelingStyle,
-    rng: np.random.Generator,
-    choice: Choice,
-    header: Placed,
-    number: int,
-    base: int,
-    plan: _Plan,
-    y: float,
-    face: tuple[float, float],
-) -> None:
+def _discharge(work: _Work, header: Placed, number: int, base: int, y: float, face: tuple[float, float]) -> None:
     """From the pump up through a check valve and a block valve to the header's tee."""
     x, z = face
-    dn, header_dn = plan.sizes[2:]
-    end = plan.discharge_z - TEE_CENTER_TO_END[header_dn]
+    dn, header_dn = work.plan.sizes[2:]
+    end = work.plan.discharge_z - TEE_CENTER_TO_END[header_dn]
     route = Route(np.array([(x, y, z), (x, y, end)]))
     node = f"J-D{number // 10}"
     check, block, gauge = f"V-{number + 2}", f"V-{number + 3}", f"G-{number + 2}"
-    kind = str(rng.choice(["gate", "globe"]))
+    kind = str(work.rng.choice(["gate", "globe"]))
     space = route.length
     inline: tuple[Inline, ...] = (
-        choice.valve(0.40 * space, "check", check, dn),
-        choice.valve(0.77 * space, kind, block, dn),
+        work.choice.valve(0.40 * space, "check", check, dn),
+        work.choice.valve(0.77 * space, kind, block, dn),
     )
     run = Run(
         f"D{number // 10}",
         dn,
         route,
         inline,
-        (choice.side_gauge(0.125 * space, gauge, 63, float(rng.uniform(0.6, 2.6)), roll=np.pi),),
+        (work.choice.side_gauge(0.125 * space, gauge, 63, work.needle(), roll=np.pi),),
         ends=("joint", "open"),
         nodes=(f"P-{number // 10}", node),
         arms=(0.0, TEE_CENTER_TO_END[header_dn]),
         flow="forward",
         reason="check valve behind a pump",
     )
-    site.lay(run, style, [base], [header.device(node)])
+    work.site.lay(run, work.style, [base], [header.device(node)])
 
 
 def _name(site: Site, style: ModelingStyle, number: int, base: int, one: Pump, y: float) -> None:

@@ -17,7 +17,7 @@ from cadplants.parts.detail import Marks, plate
 from cadplants.parts.electrical import cable_tray
 from cadplants.parts.fastener import SUPPORT_REACH
 from cadplants.parts.structure import beam, column
-from cadplants.presets.site import Placed, Site
+from cadplants.presets.site import Placed, Site, Work
 from cadplants.solids.transforms import at, looking
 from cadplants.styles.modeling_style import ModelingStyle
 
@@ -92,6 +92,9 @@ def _gaps(half: float, ys: list[float], levels: tuple[int, ...]) -> list[tuple[f
     return list(zip(edges[:-1], edges[1:], strict=True))
 
 
+_Work = Work[_Plan]
+
+
 def make_rack(seed: int = 0, style: ModelingStyle | None = None, n_bays: int = 0, marks: Marks | None = None) -> Plant:
     """Builds a rack with five lines on two levels, branches with valves, and a cable tray; stands on z = 0.
 
@@ -112,8 +115,9 @@ def make_rack(seed: int = 0, style: ModelingStyle | None = None, n_bays: int = 0
     for k in range(plan.bays):
         for side, shaft in ((-1, 0), (1, 1)):
             _tie(site, style, plan, k * plan.bay, side * plan.half, beams[k][2][shaft], beams[k + 1][2][shaft])
+    work = _Work(site, style, choice, plan, rng)
     for k, level in enumerate(plan.levels):
-        _line(site, style, rng, choice, plan, k, [frame[:2][level] for frame in beams])
+        _line(work, k, [frame[:2][level] for frame in beams])
     tray = site.add(cable_tray(plan.bays * plan.bay, style, pieces=plan.bays).placed(at(0, plan.tray, plan.tops[1])))
     for k in range(plan.bays):
         site.join(tray + k, beams[k][1])
@@ -152,16 +156,9 @@ def _tie(site: Site, style: ModelingStyle, plan: _Plan, x: float, y: float, near
     site.join(far, tie)
 
 
-def _line(
-    site: Site,
-    style: ModelingStyle,
-    rng: np.random.Generator,
-    choice: Choice,
-    plan: _Plan,
-    index: int,
-    beams: list[int],
-) -> None:
+def _line(work: _Work, index: int, beams: list[int]) -> None:
     """A line along the rack: over the frames, maybe down at its far end, maybe with branches that drop from it."""
+    plan, rng = work.plan, work.rng
     number, dn, y, level = index + 1, plan.sizes[index], plan.ys[index], plan.levels[index]
     side, down = plan.drops[index], index in plan.downs
     z = plan.tops[level] + SUPPORT_REACH + PIPES[dn].radius
@@ -187,35 +184,25 @@ def _line(
             unit = f"V-{number}{bay + 1}"
             kind = str(rng.choice(["gate", "globe", "ball", "butterfly", "control"]))
             if kind == "control":
-                inline.append(choice.control_valve(middle - 0.75, unit, dn, int(rng.integers(1000))))
+                inline.append(work.choice.control_valve(middle - 0.75, unit, dn, int(rng.integers(1000))))
             else:
-                inline.append(choice.valve(middle - 0.75, kind, unit, dn))
-            taps.append(choice.gauge(middle + 0.70, f"G-{number}{bay + 1}", 100, float(rng.uniform(0.6, 2.6))))
+                inline.append(work.choice.valve(middle - 0.75, kind, unit, dn))
+            taps.append(work.choice.gauge(middle + 0.70, f"G-{number}{bay + 1}", 100, work.needle()))
     if down:
         drop = float(route.starts[1])
         inline.append(
-            choice.valve(route.length - 0.86, "gate" if number == 2 else "globe", f"V-{number}9", dn, np.pi / 2)
+            work.choice.valve(route.length - 0.86, "gate" if number == 2 else "globe", f"V-{number}9", dn, np.pi / 2)
         )
-        taps.append(choice.side_gauge(drop + 0.62, f"G-{number}9", 63, float(rng.uniform(0.6, 2.6)), True))
+        taps.append(work.choice.side_gauge(drop + 0.62, f"G-{number}9", 63, work.needle(), True))
     ends = ("flange", "flange") if index < len(plan.ys) - 1 else ("blind", "flange")
-    placed = site.lay(Run(tag, dn, route, tuple(inline), tuple(taps), ends=ends), style)
+    placed = work.site.lay(Run(tag, dn, route, tuple(inline), tuple(taps), ends=ends), work.style)
     for k, carrier in enumerate(beams):
-        site.support(placed, k * plan.bay - low, carrier, style)
+        work.site.support(placed, k * plan.bay - low, carrier, work.style)
     for bay, middle in branches:
-        _branch(site, style, rng, choice, placed, number, bay, middle, side)
+        _branch(work, placed, number, bay, middle, side)
 
 
-def _branch(
-    site: Site,
-    style: ModelingStyle,
-    rng: np.random.Generator,
-    choice: Choice,
-    trunk: Placed,
-    number: int,
-    bay: int,
-    s: float,
-    side: int,
-) -> None:
+def _branch(work: _Work, trunk: Placed, number: int, bay: int, s: float, side: int) -> None:
     """From a tee down, with a valve at hand height, and out to the side."""
     run = trunk.laid.run
     dn = min(run.dn, 50)
@@ -224,11 +211,11 @@ def _branch(
     low = 0.62
     route = Route(np.array([(x, y, top), (x, y, low), (x, y + side * 0.75, low)]))
     node, unit, gauge = f"J-{number}{bay + 1}", f"V-{number}{bay + 1}", f"G-{number}{bay + 1}"
-    kind = str(rng.choice(["ball", "ball", "globe", "gate"]))
-    roll = float(rng.choice([0.0, np.pi]))
-    actuated = bool(rng.random() < 0.4)
-    inline = (choice.valve(top - 1.25, kind, unit, dn, roll, actuated=actuated),)
-    taps = (choice.side_gauge(top - 1.75, gauge, 63, float(rng.uniform(0.6, 2.6)), True, roll + np.pi / 2),)
+    kind = str(work.rng.choice(["ball", "ball", "globe", "gate"]))
+    roll = float(work.rng.choice([0.0, np.pi]))
+    actuated = bool(work.rng.random() < 0.4)
+    inline = (work.choice.valve(top - 1.25, kind, unit, dn, roll, actuated=actuated),)
+    taps = (work.choice.side_gauge(top - 1.75, gauge, 63, work.needle(), True, roll + np.pi / 2),)
     branch = Run(
         f"L{number}B{bay + 1}",
         dn,
@@ -239,7 +226,7 @@ def _branch(
         nodes=(node, ""),
         arms=(TEE_CENTER_TO_END[run.dn], 0.0),
     )
-    site.lay(branch, style, [trunk.device(node)])
+    work.site.lay(branch, work.style, [trunk.device(node)])
 
 
 def _number(site: Site, style: ModelingStyle, plan: _Plan, beams: list[tuple[int, int, tuple[int, int]]]) -> None:

@@ -21,7 +21,7 @@ from cadplants.parts.flange import GASKET, plate_thickness
 from cadplants.parts.piping import tee
 from cadplants.parts.structure import beam, column, post
 from cadplants.parts.vessel import Nozzle, Tank, tank
-from cadplants.presets.site import Placed, Site
+from cadplants.presets.site import Placed, Site, Work
 from cadplants.solids.transforms import at
 from cadplants.styles.modeling_style import ModelingStyle
 
@@ -77,6 +77,9 @@ def _draw(rng: np.random.Generator) -> _Plan:
     )
 
 
+_Work = Work[_Plan]
+
+
 def make_tank(seed: int = 0, style: ModelingStyle | None = None, marks: Marks | None = None) -> Plant:
     """Builds a tank with five lines: 4 valves, 5 gauges, one branch; stands on z = 0.
 
@@ -95,11 +98,12 @@ def make_tank(seed: int = 0, style: ModelingStyle | None = None, marks: Marks | 
     vessel, reach = _vessel(style, plan)
     first = site.add(vessel.assembly)
     level = vessel.top + plan.rise
-    overhead = _overhead(site, style, vessel, first, plan, level, choice, rng)
-    second = _vents(site, style, vessel, first, plan, level - 0.42, choice, rng)
+    work = _Work(site, style, choice, plan, rng)
+    overhead = _overhead(work, vessel, first, level)
+    second = _vents(work, vessel, first, level - 0.42)
     _portal(site, style, plan, overhead, second)
     for number, side in enumerate((-1, 1)):
-        _drain(site, style, vessel, first, plan, number, side * plan.side, reach, choice, rng)
+        _drain(work, vessel, first, number, side * plan.side, reach)
     if marks == "all":
         _name(site, style, vessel, first)
     return site.plant("tank", seed, style)
@@ -145,81 +149,63 @@ def _ends(vessel: Tank, first: int, nozzle: int) -> tuple[Floats, list[int]]:
     return vessel.faces[nozzle][:3, 3], [first + vessel.flanges[nozzle]]
 
 
-def _overhead(
-    site: Site,
-    style: ModelingStyle,
-    vessel: Tank,
-    first: int,
-    plan: _Plan,
-    level: float,
-    choice: Choice,
-    rng: np.random.Generator,
-) -> Placed:
+def _overhead(work: _Work, vessel: Tank, first: int, level: float) -> Placed:
     """From the top nozzle up, over to the portal, and round into a gate valve with a lid behind it."""
     start, touching = _ends(vessel, first, 0)
-    far = (plan.far, 0.0, level)
-    end = (plan.far, -1.75 * plan.side, level)
+    far = (work.plan.far, 0.0, level)
+    end = (work.plan.far, -1.75 * work.plan.side, level)
     route = Route(np.array([start, (0.0, 0.0, level), far, end]))
     s = route.starts
     # The stem looks away from the tank.
-    roll = np.pi / 2 * plan.side
+    roll = np.pi / 2 * work.plan.side
     inline = [
         Inline(float(s[1]) - 0.55),
         Inline(float(s[1]) + 0.62),
         Inline(float(s[2]) - 0.75),
-        choice.valve(float(s[2]) + 1.05, "gate", "V-1", plan.main, roll),
+        work.choice.valve(float(s[2]) + 1.05, "gate", "V-1", work.plan.main, roll),
     ]
     taps = [
-        choice.side_gauge(0.45 + float(rng.uniform(0, 0.1)), "G-1", 100, float(rng.uniform(0.6, 2.6))),
-        choice.gauge(float(s[2]) - 1.5, "G-2", 100, float(rng.uniform(0.6, 2.6))),
+        work.choice.side_gauge(0.45 + float(work.rng.uniform(0, 0.1)), "G-1", 100, work.needle()),
+        work.choice.gauge(float(s[2]) - 1.5, "G-2", 100, work.needle()),
     ]
     run = Run(
         "L1",
-        plan.main,
+        work.plan.main,
         route,
         tuple(inline),
         tuple(taps),
-        bent=bool(rng.random() < 0.5),
+        bent=bool(work.rng.random() < 0.5),
         bend=1.5,
         ends=("joint", "blind"),
         nodes=("T-1", ""),
     )
-    return site.lay(run, style, touching)
+    return work.site.lay(run, work.style, touching)
 
 
-def _vents(
-    site: Site,
-    style: ModelingStyle,
-    vessel: Tank,
-    first: int,
-    plan: _Plan,
-    level: float,
-    choice: Choice,
-    rng: np.random.Generator,
-) -> Placed:
+def _vents(work: _Work, vessel: Tank, first: int, level: float) -> Placed:
     """Two lines from the top that meet in a tee and go to the portal."""
-    dn = plan.vent
+    dn = work.plan.vent
     start, touching = _ends(vessel, first, 1)
     other, touching_other = _ends(vessel, first, 2)
     y = float(start[1])
-    route = Route(np.array([other, (other[0], y, level), (plan.far - 0.4, y, level)]))
+    route = Route(np.array([other, (other[0], y, level), (work.plan.far - 0.4, y, level)]))
     s = route.starts
     meet = float(s[1] + other[0] - start[0])
     inline = [
-        choice.valve(0.5 * float(s[1]) - 0.02, "ball", "V-2", dn, np.pi),
+        work.choice.valve(0.5 * float(s[1]) - 0.02, "ball", "V-2", dn, np.pi),
         Inline(meet, partial(_tee, dn=dn), roll=np.pi, welded=True, junction="J-1"),
         Inline(meet + 0.85),
     ]
-    taps = [choice.gauge(float(s[2]) - 1.1, "G-3", 100, float(rng.uniform(0.6, 2.6)))]
-    trunk = site.lay(
+    taps = [work.choice.gauge(float(s[2]) - 1.1, "G-3", 100, work.needle())]
+    trunk = work.site.lay(
         Run("L2", dn, route, tuple(inline), tuple(taps), ends=("joint", "flange"), nodes=("T-1", "")),
-        style,
+        work.style,
         touching_other,
     )
     arm = TEE_CENTER_TO_END[dn]
     up = (start[0], y, level - arm)
     branch = Run("L3", dn, Route(np.array([start, up])), ends=("joint", "open"), nodes=("T-1", "J-1"), arms=(0.0, arm))
-    site.lay(branch, style, touching, [trunk.device("J-1")])
+    work.site.lay(branch, work.style, touching, [trunk.device("J-1")])
     return trunk
 
 
@@ -253,36 +239,25 @@ def _portal(site: Site, style: ModelingStyle, plan: _Plan, overhead: Placed, ven
         site.support(placed, s, carrier, style)
 
 
-def _drain(
-    site: Site,
-    style: ModelingStyle,
-    vessel: Tank,
-    first: int,
-    plan: _Plan,
-    number: int,
-    side: int,
-    reach: float,
-    choice: Choice,
-    rng: np.random.Generator,
-) -> None:
+def _drain(work: _Work, vessel: Tank, first: int, number: int, side: int, reach: float) -> None:
     """A small line from the bottom of the shell, round the tank and along the ground on short posts."""
     nozzle = 3 + number
     start, touching = _ends(vessel, first, nozzle)
     out = vessel.faces[nozzle][:3, 0]
-    dn = plan.drain
+    dn = work.plan.drain
     z = float(start[2])
     corner = start + (0.78 + 0.20 * (number == 0)) * out
     # Past the columns of the portal.
     y = side * (max(reach + 0.42, 1.17) + 0.16 * (number == 0))
-    end = plan.far - 1.0
+    end = work.plan.far - 1.0
     route = Route(np.array([start, corner, (float(corner[0]), y, z), (end, y, z), (end, y, z - 0.24)]))
     s = route.starts
     unit, gauge = f"V-{3 + number}", f"G-{4 + number}"
     inline = [
-        choice.valve(0.38, "ball", unit, dn),
-        Inline(float(s[2]) + float(rng.uniform(0.42, 0.50)) * float(s[3] - s[2])),
+        work.choice.valve(0.38, "ball", unit, dn),
+        Inline(float(s[2]) + float(work.rng.uniform(0.42, 0.50)) * float(s[3] - s[2])),
     ]
-    taps = [choice.gauge(float(s[2]) + 0.9, gauge, 100, float(rng.uniform(0.6, 2.6)))]
+    taps = [work.choice.gauge(float(s[2]) + 0.9, gauge, 100, work.needle())]
     run = Run(
         f"L{4 + number}",
         dn,
@@ -294,13 +269,13 @@ def _drain(
         flow="forward",
         reason="drains the tank by gravity",
     )
-    placed = site.lay(run, style, touching)
+    placed = work.site.lay(run, work.style, touching)
     height = z - PIPES[dn].radius - SUPPORT_REACH
     for share in (0.30, 0.62, 0.92):
         at_s = float(s[2] + share * (s[3] - s[2]))
         x, stand_y, _ = route.point(at_s)
-        base = site.add(post(height, style, capped=True).placed(at(float(x), float(stand_y), 0)))
-        site.support(placed, at_s, base + 2, style)
+        base = work.site.add(post(height, work.style, capped=True).placed(at(float(x), float(stand_y), 0)))
+        work.site.support(placed, at_s, base + 2, work.style)
 
 
 def _tee(style: ModelingStyle, dn: int) -> Device:
