@@ -279,7 +279,7 @@ def nested(
     """A piece with parameters of its own.
 
     Args:
-        kind: its class, or what chooses it by the fields before, or draws it.
+        kind: its class, or what chooses it by the fields before or by a draw.
         about: what it is.
         fixed: what the fields before set of it, by name.
         stream: where its parameters are drawn from, given the field's own source and the fields before.
@@ -296,7 +296,9 @@ def nested(
             return value  # type: ignore[return-value]
         raise ValueError("give its own fields, as name.field=value")
 
-    sample = lambda source, before: draw(source, before, {}, {})  # noqa: E731
+    def sample(source: Source, before: Any) -> Any:
+        return draw(source, before, {}, {})
+
     return _field(Field(about, "", "see its own", sample, accept, when, otherwise, piece=draw))  # type: ignore[no-any-return]
 
 

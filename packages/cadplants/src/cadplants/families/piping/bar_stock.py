@@ -7,7 +7,7 @@ from typing import ClassVar
 import numpy as np
 
 from cadplants.builder.device import families_of
-from cadplants.builder.params import among, between, nested, several
+from cadplants.builder.params import among, between, several
 from cadplants.builder.table import Table, outline
 from cadplants.families.piping.coupling import ferrule, hygienic_clamp
 from cadplants.families.piping.shape import (
@@ -26,6 +26,7 @@ from cadplants.families.piping.shape import (
     pipe_x,
     prism,
     sized,
+    tail_of,
     tails,
 )
 from cadplants.model.family import Model
@@ -144,7 +145,7 @@ class UnionElbow(Fitting, name="union/elbow", place="end", sizes=SMALL, weight=1
     radius: float = between(1.25, 1.7, "of the bend / of its body")
     flats: int = among((6, 8), "flats of its mouth")
     corners: int = among((6, 8), "flats of its nut")
-    tail: Tail = nested(Tail, "what goes on from it", fixed=lambda _: {"ends": ("open", "open", "cap")})
+    tail: Tail = tail_of("open", "open", "cap")
     roll: float = among(QUARTERS, ROLL)
 
     def build(self, t: Table) -> Model:

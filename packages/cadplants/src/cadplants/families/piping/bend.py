@@ -26,6 +26,7 @@ from cadplants.families.piping.shape import (
     pipe_x,
     prism,
     sized,
+    tail_of,
 )
 from cadplants.model.family import Model, Part, placed
 from cadplants.model.standards import FLANGES, PIPES, SIZES, sizes_between
@@ -292,7 +293,7 @@ class _Turned(Fitting, place="end"):
     twist: float = among(
         QUARTERS, "turn of the second about the pipe / half a turn", when=lambda p: p.count > 1, otherwise=0.0
     )
-    tail: Tail = nested(Tail, "what goes on from it", fixed=lambda _: {"ends": ("open", "open", "cap", "flange")})
+    tail: Tail = tail_of("open", "open", "cap", "flange")
 
     def build(self, t: Table) -> Model:
         t = t.spun("x", self.roll * np.pi)
@@ -343,7 +344,7 @@ class Street(Fitting, name="elbow/street", place="end", sizes=SMALL):
     turn: float = among((0.5, 0.25), "of the bend / half a turn")
     radius: float = between(1.2, 1.7, "of the bend / of its body")
     roll: float = among(QUARTERS, ROLL)
-    tail: Tail = nested(Tail, "what goes on from it", fixed=lambda _: {"ends": ("open", "cap")})
+    tail: Tail = tail_of("open", "cap")
 
     def build(self, t: Table) -> Model:
         r, n, bore = sized(t.dn, t.style)
@@ -420,7 +421,7 @@ class Duckfoot(Fitting, name="elbow/duckfoot", place="end", sizes=SIZES[SIZES.in
 
     bend: Beaded = nested(Beaded, "its bend")
     leg: float = between(2.5, 6.0, "length of its leg, less 0.1 m / radius of the pipe")
-    tail: Tail = nested(Tail, "what goes on from it", fixed=lambda _: {"ends": ("open", "flange", "lid")})
+    tail: Tail = tail_of("open", "flange", "lid")
 
     def build(self, t: Table) -> Model:
         r, n, _ = sized(t.dn, t.style)

@@ -30,6 +30,7 @@ from cadplants.families.piping.shape import (
     prism,
     seated,
     sized,
+    tail_of,
     tails,
 )
 from cadplants.model.family import Model
@@ -484,7 +485,7 @@ class Saddle(_Outlet, name="branch outlet/saddle", bundle="branch outlet", weigh
     flats: bool = chance(0.5, "a hexagon at its mouth, not a ring")
     metal: str = among(("rubber", "handle", "valve", "trim"), "kind of material")
     bolted: bool = chance(0.5, "a second shell with bolts holds it, not U-bolts")
-    tail: Tail = nested(Tail, _GOES_ON, fixed=lambda _: {"ends": ("open", "cap", "flange")})
+    tail: Tail = tail_of("open", "cap", "flange")
 
     def build(self, t: Table) -> Model:
         (r, n, _), q = sized(t.dn, t.style), PIPES[self.other].radius

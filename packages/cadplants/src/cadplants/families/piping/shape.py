@@ -9,7 +9,8 @@ import numpy as np
 
 from cadgraph.model.scene import Floats
 from cadplants.builder.device import Device
-from cadplants.builder.params import Params, among, between, given
+from cadplants.builder.draws import made
+from cadplants.builder.params import Params, among, between, given, nested
 from cadplants.builder.table import Table
 from cadplants.model.family import Part
 from cadplants.model.plant import Assembly
@@ -68,6 +69,7 @@ __all__ = [
     "seated",
     "sized",
     "swell_room",
+    "tail_of",
     "tails",
 ]
 
@@ -347,7 +349,12 @@ class Tail(Params):
 
 def tails(*ends: str) -> Callable[[Any, Any], Tail]:
     """Draws what goes on from a mouth, its end one of some; what stands twice is twice as likely."""
-    return lambda source, _: Tail.draw(source, {"ends": ends})
+    return made(Tail, lambda _: {"ends": ends})
+
+
+def tail_of(*ends: str) -> Tail:
+    """The field of what goes on from a mouth: see ``tails``."""
+    return nested(Tail, "what goes on from it", fixed=lambda _: {"ends": ends})
 
 
 def bend_path(radius: float, turn: float, steps: int, lead: float = 0.0) -> tuple[Floats, float]:

@@ -58,8 +58,10 @@ class Shelf(Fitting, name="bracket/shelf", label=_B):
         reach, drop, wide, thick, level = self.reach, self.drop, self.wide, self.thick, self.level
         length, tubes = (self.count - 1) * self.gap + 0.3, self.form == "tubes"
         add_wall(t, length + 0.4, self.wall, 0.0, 0.0, level + 0.5)
-        ledge = box((wide, reach - thick, thick), (0, -thick - (reach - thick) / 2, -thick / 2))
-        strip = [box((wide, thick, drop), (0, -thick / 2, -drop / 2)), ledge] if drop else []
+        strip = [
+            box((wide, thick, drop), (0, -thick / 2, -drop / 2)),
+            box((wide, reach - thick, thick), (0, -thick - (reach - thick) / 2, -thick / 2)),
+        ] if drop else []  # fmt: skip
         solids, half = self._solids(t), (self.count - 1) * self.gap / 2
         for x in np.linspace(-half, half, self.count):
             spot = t.at(float(x), 0, level)
