@@ -40,18 +40,23 @@ def riser():
     return make("riser", 3, "vendor")
 
 
-def said(scene):
+def labelled(scene):
+    """The paths of its parts, and what is said of them."""
     parts, contacts = make_parts_from(scene)
-    return dict(zip(parts.scene.paths, EmbeddedLabeler().label(parts, contacts, VOCABULARY).answers, strict=True))
+    return parts.scene.paths, EmbeddedLabeler().label(parts, contacts, VOCABULARY)
+
+
+def said(scene):
+    paths, labeling = labelled(scene)
+    return dict(zip(paths, labeling.answers, strict=True))
 
 
 def given(scene):
     """Labels that are given, as group and name; None for what stays open, whatever is likeliest there."""
-    parts, contacts = make_parts_from(scene)
-    labeling = EmbeddedLabeler().label(parts, contacts, VOCABULARY)
+    paths, labeling = labelled(scene)
     return {
         path: (label.group, label.name) if label and label.confidence >= least else None
-        for path, label, least in zip(parts.scene.paths, labeling.answers, labeling.thresholds, strict=True)
+        for path, label, least in zip(paths, labeling.answers, labeling.thresholds, strict=True)
     }
 
 

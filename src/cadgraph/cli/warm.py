@@ -52,6 +52,6 @@ def _draw_something() -> None:
 
 
 if __name__ == "__main__":
-    sys.stdout.write("compiling kernels (once, up to a minute)\n")
+    sys.stdout.write("compiling kernels (once, a minute or two)\n")
     sys.stdout.flush()
     warm_up()

@@ -82,16 +82,16 @@ def _said(label: Label | None) -> tuple[str | None, str | None]:
 
 
 def _followed(label: Label | None, guess: Label | None) -> tuple[str | None, str | None]:
-    """The group and name that a label gives, unless only the labeler says so and holds it for likelier wrong."""
-    return (None, None) if label is guess and _is_tentative(guess) else _said(label)
+    """The group and name that a label gives, unless only the labeler says so and holds its group for likelier wrong."""
+    if label is None or label is not guess:
+        return _said(label)
+    likely = max(_share(label, label.group), label.confidence)
+    return (None, None) if likely < _LIKELY else _said(label)
 
 
-def _is_tentative(guess: Label | None) -> bool:
-    """Whether the labeler holds the group that it gives for likelier wrong than right."""
-    if guess is None:
-        return True
-    likely = sum(one.confidence for one in guess.guesses if one.group == guess.group)
-    return max(likely, guess.confidence) < _LIKELY
+def _share(guess: Label, group: str) -> float:
+    """How likely the second opinion holds a group, as far as it tells."""
+    return sum(one.confidence for one in guess.guesses if one.group == group)
 
 
 def _weighed(
@@ -131,7 +131,7 @@ def _allows(guess: Label, label: Label | None) -> bool:
     """Whether the second opinion holds a label's group for possible."""
     if label is None:
         return False
-    return sum(one.confidence for one in guess.guesses if one.group == label.group) >= _POSSIBLE
+    return _share(guess, label.group) >= _POSSIBLE
 
 
 def _are_doubtful(labels: Sequence[Label | None], guessed: Sequence[Label | None]) -> bool:
@@ -175,7 +175,7 @@ def likely_lines(
     connectors, unit_of = vocabulary.connector_groups, vocabulary.unit_of_group
     functional = [group in connectors or group in unit_of for group in roles.groups]
     # Two say that it is something else: then it is.
-    connecting = [_is_tentative(guess) or _said(guess)[0] in connectors for guess in guessed]
+    connecting = [_followed(guess, guess)[0] in {None, *connectors} for guess in guessed]
     possible = np.array(connecting, np.bool_) & ~np.array(functional, np.bool_) & ~np.array(ground, np.bool_)
     pairs = np.concatenate([contacts.pairs, contacts.pairs[:, ::-1]])
     near = possible[pairs[:, 0]] & np.array(functional, np.bool_)[pairs[:, 1]]
