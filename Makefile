@@ -22,6 +22,9 @@ PIP := $(BIN)/python -m pip install --disable-pip-version-check --quiet --no-com
 WHOLE := --editable '.[all,dev]' --editable packages/cadplants --editable packages/cadlab
 PROJECTS := pyproject.toml packages/cadplants/pyproject.toml packages/cadlab/pyproject.toml constraints.txt
 
+# Byte code is kept, whatever the shell says: the tests start hundreds of processes, which would compile every module again.
+unexport PYTHONDONTWRITEBYTECODE
+
 BROWSERS := chromium chromium-browser google-chrome google-chrome-stable microsoft-edge
 WEB_TOOLS := web/node_modules/.package-lock.json
 NO_NODE := the page needs Node 20 or newer with npm to be built or checked: https://nodejs.org; the one that is built already works without
