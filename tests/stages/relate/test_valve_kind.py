@@ -112,6 +112,16 @@ def test_a_bracket_under_an_actuator_says_nothing():
     assert asked[0] == asked[1]
 
 
+@pytest.mark.parametrize(("length", "stated"), [(0.178, True), (0.132, False)])
+def test_a_driven_ball_as_long_as_no_ball_valve_may_be_a_control_valve(length, stated):
+    ball = turned(shapes.sphere(0.03), (length / 2, 0, 0), X)
+    actuator = turned(shapes.box((0.1, 0.06, 0.06)), (length / 2, 0, 0.2), UP)
+    found = kinds([body(length), ball, actuator], ["valve body", "valve ball", "actuator"], length, 50)
+    assert found[0][0] == "ball valve"
+    assert (found[0][1] >= SURE_FROM) is stated
+    assert stated or found[1][0] == "control valve"
+
+
 def test_other_names_sizes_and_openings_of_the_same_parts_are_looked_at_anew():
     parts = parts_of(body(0.178), operator("lever", 0.178))
     unit = UnitParts("valve", "V-001", (0, 1), None, ends(0.178))

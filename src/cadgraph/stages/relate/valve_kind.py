@@ -98,8 +98,9 @@ _SPRUNG, _UNSPRUNG = (0.6, 0.01), (0.4, 0.99)
 # A relief valve is slender over its snout; the snout is low, reaches over the housing on one side, but not as far as a
 # lever does; and it ends otherwise than it begins (radii).
 _SLENDER, _REACH, _ALONE, _UNLIKE, _TALL = 0.8, 3.2, 0.75, 0.12, 1.6
-# A ball among the parts is that of a ball valve, but for check valves with a ball.
-_HOLDS_BALL = MappingProxyType({"ball": 1.0, "check": 0.02, "plug": 0.02})
+# A ball among the parts is that of a ball valve, but for check valves with a ball, and for control valves that turn a
+# segment of one, a fifth of them (ours): driven, and as long as no ball valve is, it may be either.
+_HOLDS_BALL = MappingProxyType({"ball": 1.0, "check": 0.02, "plug": 0.02, "control": 0.2})
 # How often valves of a kind that is turned by hand have a yoke, which carries a stem that rises (ours); a quarter turn
 # needs none. Brackets of actuators are called so, too.
 _HOLDS_YOKE = MappingProxyType(
