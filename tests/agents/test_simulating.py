@@ -5,7 +5,8 @@ import pytest
 from cadgraph.agents.plant import Plant
 from cadgraph.agents.tools import tool_named
 from cadgraph.hydraulics.balance import default_scenario
-from cadgraph.hydraulics.scenario_file import SCENARIO, write_scenario
+from cadgraph.hydraulics.scenario_file import write_scenario
+from cadgraph.hydraulics.settings import SCENARIO
 from networks import chain, network, pumping, terminal, unit
 
 

@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from cadgraph.hydraulics.scenario_file import SCENARIO
+from cadgraph.hydraulics.settings import SCENARIO
 from command_line import refused, run
 from networks import pumping
 

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from cadgraph.agents.answer import cell, row
 from cadgraph.agents.plant import Plant
 from cadgraph.errors import CadGraphError
-from cadgraph.hydraulics.closing import Simulated, simulate_closing
-from cadgraph.hydraulics.scenario_file import SCENARIO
+from cadgraph.hydraulics.settings import SCENARIO
 from cadgraph.query.what_if import WhatIf
+
+if TYPE_CHECKING:
+    from cadgraph.hydraulics.closing import Simulated
 
 __all__ = ["simulated_rows", "simulated_values", "simulation_of"]
 
@@ -27,6 +29,8 @@ def simulation_of(plant: Plant, close: Sequence[str], found: WhatIf) -> Simulate
     """
     if plant.folder is None or not (plant.folder / SCENARIO).exists():
         return None
+    from cadgraph.hydraulics.closing import simulate_closing
+
     try:
         return simulate_closing(plant.graph, plant.folder / SCENARIO, close, found)
     except (CadGraphError, ValueError) as error:

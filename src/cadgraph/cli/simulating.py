@@ -96,7 +96,7 @@ def simulate(
 def _writing(folder: Path, scenario: Path | None, commands: dict[str, float]) -> AbstractContextManager[Any]:
     """All that is written comes into the folder together; whoever only asks what a change does keeps nobody out."""
     from cadgraph._io.run_folder import coming_into
-    from cadgraph.hydraulics.scenario_file import SCENARIO
+    from cadgraph.hydraulics.settings import SCENARIO
 
     asks = commands and (scenario is not None or (folder / SCENARIO).exists())
     return nullcontext() if asks else coming_into(folder)
@@ -117,7 +117,8 @@ def _commands(changes: Sequence[str]) -> dict[str, float]:
 
 def _open(graph: Path, scenario: Path | None, process: Any) -> tuple[Any, Path, bool]:
     """A process, the file that says what it supposes, and whether that was written just now."""
-    from cadgraph.hydraulics.scenario_file import SCENARIO, write_scenario
+    from cadgraph.hydraulics.scenario_file import write_scenario
+    from cadgraph.hydraulics.settings import SCENARIO
 
     folder = graph if graph.is_dir() else graph.parent
     file = scenario or folder / SCENARIO

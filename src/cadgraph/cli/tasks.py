@@ -39,7 +39,7 @@ def tasks(
     from cadgraph.config import restore_config
     from cadgraph.export.source import find_source
     from cadgraph.hydraulics.process import Process
-    from cadgraph.hydraulics.scenario_file import SCENARIO
+    from cadgraph.hydraulics.settings import SCENARIO
     from cadgraph.load import load
     from cadgraph.model.graph import SceneGraph
     from cadgraph.simulate.tasks.choosing import make_tasks

@@ -6,10 +6,11 @@ import shutil
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from cadgraph.distribute.crew import TileCrew
-from cadgraph.distribute.hands import Hands
-from cadgraph.distribute.processes import Processes
+if TYPE_CHECKING:
+    from cadgraph.distribute.crew import TileCrew
+    from cadgraph.distribute.hands import Hands
 
 __all__ = ["FOLDER", "crew_for", "hands_for"]
 
@@ -34,6 +35,8 @@ def hands_for(folder: Path, workers: int | None = None, ray: str | None = None) 
     if workers is not None and workers < 1:
         raise ValueError(f"workers is {workers}; give at least 1")
     if ray is None:
+        from cadgraph.distribute.processes import Processes
+
         with Processes(workers or 1) as processes:
             yield processes
         return
@@ -66,6 +69,8 @@ def crew_for(
     if workers in (None, 1) and tiles is None and ray is None:
         yield None
     else:
+        from cadgraph.distribute.crew import TileCrew
+
         try:
             with hands_for(target, workers, ray) as hands:
                 yield TileCrew(hands, folder, tiles)

@@ -13,7 +13,7 @@ from pxr import Ar, UsdUtils
 
 from cadgraph._io.atomic import write_atomically
 from cadgraph._io.limits import size_text
-from cadgraph.export.usd import is_usd, relative_path
+from cadgraph.export.usd_paths import is_usd, relative_path
 from cadgraph.model.diagnostic import Diagnostic
 
 __all__ = ["Files"]

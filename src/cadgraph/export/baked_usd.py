@@ -22,16 +22,15 @@ from cadgraph.export.baked_labels import LayerLabels
 from cadgraph.export.source import settings_of
 from cadgraph.export.usd import (
     authorable_path,
-    check_source,
     export_layer,
     geometry_layer,
     is_split,
-    is_usd,
     prim_paths,
     reason_of,
     targets_of_parts,
 )
 from cadgraph.export.usd_labels import add_structure, dispositions_of, parts_of_meshes
+from cadgraph.export.usd_paths import check_source, is_usd
 from cadgraph.export.usd_specs import unused
 from cadgraph.load.packing import Notes
 from cadgraph.load.usd_assets import open_stage

@@ -18,8 +18,7 @@ from cadgraph._io.text import file_name, printable
 from cadgraph.hydraulics.balance import Balance
 from cadgraph.hydraulics.network import LinkKind
 from cadgraph.hydraulics.process import Process
-from cadgraph.hydraulics.scenario_file import SCENARIO
-from cadgraph.hydraulics.settings import GRAVITY, Scenario
+from cadgraph.hydraulics.settings import GRAVITY, SCENARIO, Scenario
 from cadgraph.hydraulics.solve import Condition
 from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.graph import SceneGraph

@@ -123,7 +123,8 @@ def _write_epanet(graph: SceneGraph, path: Path, _: Path | None) -> Written:
 
 
 def _write_usd(graph: SceneGraph, path: Path, source: Path | None) -> Written:
-    from cadgraph.export.usd import check_source, write_semantics
+    from cadgraph.export.usd import write_semantics
+    from cadgraph.export.usd_paths import check_source
 
     assert source is not None  # it is needed
     check_source(source, path)

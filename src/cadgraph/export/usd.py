@@ -31,8 +31,8 @@ from cadgraph.export.usd_labels import (
     size_of,
     trace_of,
 )
+from cadgraph.export.usd_paths import check_source, is_usd, refuse_overwriting, relative_path
 from cadgraph.export.usd_specs import (
-    CONTROL,
     claim,
     define_prim,
     identifier,
@@ -46,21 +46,16 @@ from cadgraph.model.scene import Faces, Floats, Scene
 
 __all__ = [
     "authorable_path",
-    "check_source",
     "export_layer",
     "geometry_layer",
     "is_split",
-    "is_usd",
     "prim_paths",
     "reason_of",
-    "refuse_overwriting",
-    "relative_path",
     "targets_of_parts",
     "write_geometry",
     "write_semantics",
 ]
 
-_USD_SUFFIXES = (".usd", ".usda", ".usdc", ".usdz")
 # A stage takes these from its root layer alone, so a layer over the source hides them unless it says them again.
 _RESTATED = (
     "defaultPrim", "upAxis", "metersPerUnit", "kilogramsPerUnit", "timeCodesPerSecond", "framesPerSecond",
@@ -69,29 +64,6 @@ _RESTATED = (
 )  # fmt: skip
 _WORLD = "World"
 _SHAPE = "CadGraphShape"
-
-
-def is_usd(source_path: str | Path) -> bool:
-    """Whether a file is USD by its name, so that a layer can lie over it."""
-    return Path(source_path).suffix.lower() in _USD_SUFFIXES
-
-
-def check_source(source_path: str | Path, path: str | Path) -> None:
-    """Makes sure that a layer can lie over a source, before any work is done for it.
-
-    Args:
-        source_path: the file that the scene comes from.
-        path: the layer to write.
-
-    Raises:
-        OutputError: the layer would overwrite the source, or USD can't refer to the source by its name.
-    """
-    source, target = Path(source_path), Path(path)
-    refuse_overwriting(source, target)
-    if is_usd(source) and CONTROL.search(relative_path(source, target)):
-        raise OutputError(
-            f"{source}: no USD layer can refer to it, as its path holds control characters or broken text; rename it"
-        )
 
 
 @collector_paused()
@@ -205,16 +177,6 @@ def export_layer(layer: Any, path: str | Path) -> Path:
 # The source below
 
 
-def refuse_overwriting(source: Path, target: Path) -> None:
-    """Makes sure that the source stays as it is.
-
-    Raises:
-        OutputError: the target is the source.
-    """
-    if os.path.realpath(source) == os.path.realpath(target):
-        raise OutputError(f"{target}: this is the source itself, which stays untouched; choose another output folder")
-
-
 def _restate(layer: Any, below: Path, target: Path, scene: Scene) -> set[str]:
     """Puts the layer over the source and repeats its stage metadata; returns the names of the source's root prims."""
     source = _open(below)
@@ -261,17 +223,6 @@ def _root_names(source: Any) -> set[str]:
             if found is not None:
                 waiting.append(found)
     return names
-
-
-def relative_path(below: Path, target: Path) -> str:
-    """How a layer refers to a file: from its own folder, with forward slashes."""
-    source = os.path.abspath(below)
-    try:
-        relative = os.path.relpath(source, os.path.dirname(os.path.abspath(target))).replace(os.sep, "/")
-    except ValueError:
-        # Another drive on Windows has no relative path.
-        return source.replace(os.sep, "/")
-    return relative if relative.startswith("../") else f"./{relative}"
 
 
 def reason_of(error: Exception) -> str:

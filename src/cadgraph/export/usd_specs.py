@@ -9,8 +9,9 @@ from typing import Any
 
 from pxr import Sdf
 
+from cadgraph.export.usd_paths import CONTROL
+
 __all__ = [
-    "CONTROL",
     "apply_schemas",
     "claim",
     "define_prim",
@@ -22,9 +23,6 @@ __all__ = [
     "token",
     "unused",
 ]
-
-CONTROL = re.compile(r"[\x00-\x1f\x7f-\x9f\u2028\u2029\ud800-\udfff]")
-"""Characters that no text in a layer may hold."""
 
 _FORBIDDEN = re.compile(r"[:;,&|!]")
 

@@ -10,8 +10,8 @@ from pathlib import Path
 from cadgraph.hydraulics.balance import Balance, default_scenario
 from cadgraph.hydraulics.joints import Joints
 from cadgraph.hydraulics.remarks import TRICKLE, remarks_of
-from cadgraph.hydraulics.scenario_file import SCENARIO, read_scenario
-from cadgraph.hydraulics.settings import Scenario
+from cadgraph.hydraulics.scenario_file import read_scenario
+from cadgraph.hydraulics.settings import SCENARIO, Scenario
 from cadgraph.hydraulics.solve import Solution
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Unit

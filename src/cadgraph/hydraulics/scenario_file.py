@@ -22,17 +22,15 @@ from cadgraph.errors import ScenarioError, UnknownNode
 from cadgraph.hydraulics.balance import complete
 from cadgraph.hydraulics.network import OUTSIDE, ports_at
 from cadgraph.hydraulics.scenario import guess_end, guess_scenario, guess_valve
-from cadgraph.hydraulics.settings import EndSetting, Move, Scenario, Setting, ValveSetting
+from cadgraph.hydraulics.settings import SCENARIO, EndSetting, Move, Scenario, Setting, ValveSetting
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Unit
 from cadgraph.query.network import Network
 
-__all__ = ["SCENARIO", "read_scenario", "scenario_text", "write_scenario"]
+__all__ = ["read_scenario", "scenario_text", "write_scenario"]
 
 _AnySetting = TypeVar("_AnySetting", bound=Setting)
 
-SCENARIO = "scenario.yaml"
-"""The name of the file beside a graph."""
 _REMEDY = "'cadgraph simulate' writes one to edit"
 _ONE = ("fluid", "pipes")
 _SEVERAL = ("valves", "pumps", "ends", "tanks", "gauges")

@@ -10,6 +10,7 @@ from pydantic import BaseModel, ConfigDict, Field, model_validator
 __all__ = [
     "ATMOSPHERE",
     "GRAVITY",
+    "SCENARIO",
     "Characteristic",
     "EndRole",
     "EndSetting",
@@ -25,6 +26,8 @@ __all__ = [
     "ValveSetting",
 ]
 
+SCENARIO = "scenario.yaml"
+"""The name of the file that holds them, beside a graph."""
 GRAVITY = 9.80665
 """Standard acceleration of free fall [m/s2]."""
 ATMOSPHERE = 1.01325

@@ -6,11 +6,9 @@ import heapq
 import math
 from collections import deque
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from scipy.sparse import csr_array
-from scipy.sparse.csgraph import dijkstra
 
 from cadgraph.model.derived import kept_with
 from cadgraph.model.graph import SceneGraph
@@ -18,6 +16,9 @@ from cadgraph.model.grid import Grid, from_runs
 from cadgraph.model.records import Access, FreeFloor, Place, Point, ReachedFrom, Unit
 from cadgraph.model.regions import region_of
 from cadgraph.model.scene import Floats, Ints
+
+if TYPE_CHECKING:
+    from scipy.sparse import csr_array
 
 __all__ = ["access_of", "levels", "region", "stand_at", "walk", "way_to"]
 
@@ -155,6 +156,8 @@ class _Floor:
         self._far: dict[int, Floats] = {}
 
     def _linked(self) -> csr_array[Any, tuple[int, int]]:
+        from scipy.sparse import csr_array
+
         n: int = int(self.free.sum())
         ends: list[Ints] = []
         costs: list[Floats] = []
@@ -203,6 +206,8 @@ class _Floor:
     def far(self, start: int) -> Floats:
         """The lengths of the shortest walks from a free square to all others [m]; infinite where none leads."""
         if start not in self._far:
+            from scipy.sparse.csgraph import dijkstra
+
             if len(self._far) >= _KEPT:
                 self._far.pop(next(iter(self._far)))
             self._far[start] = dijkstra(self._links, directed=False, indices=[start])[0]

@@ -6,8 +6,10 @@ import gc
 import json
 import time
 from collections.abc import Sequence
+from contextlib import nullcontext
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from cadgraph._io.atomic import write_atomically
 from cadgraph._io.manifest import of_an_earlier_graph
@@ -16,6 +18,7 @@ from cadgraph._io.results import NewResults, new_results
 from cadgraph._io.run_folder import refuse_to_overwrite, results_folder
 from cadgraph.config import Config, ReportConfig
 from cadgraph.distribute.site import crew_for
+from cadgraph.export.usd_paths import check_source, is_usd
 from cadgraph.labelers.base import AskingLabeler, Labeler
 from cadgraph.load import load
 from cadgraph.model.corrections import CorrectionsFile
@@ -24,11 +27,12 @@ from cadgraph.model.given_labels import GivenLabel, read_labels
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.scene import Scene
 from cadgraph.model.vocabulary import Vocabulary, default_vocabulary, read_vocabulary
-from cadgraph.pipeline import STAGES
-from cadgraph.session.session import Session
+from cadgraph.session.ahead import imported_meanwhile
+
+if TYPE_CHECKING:
+    from cadgraph.session.session import Session
 
 __all__ = [
-    "RUN_STAGES",
     "Outcome",
     "begin",
     "run",
@@ -42,10 +46,10 @@ __all__ = [
 _OF_ITS_GRAPH = ("scene.usdc", "simulation.usda", "devices.json")
 """Results that are of no use beside another graph. A report stays readable."""
 
-_MANY = 10_000  # meshes from which on memory is made free between the analysis and what is written
+# Modules that all runs need, which take longer to import than a small file takes to read.
+_NEEDED = ("cadgraph.session.session", "cadgraph.export.usd")
 
-RUN_STAGES = ("read", *STAGES, "write graph", "write labels", "draw report")
-"""The names that ``run`` gives to its progress, in order."""
+_MANY = 10_000  # meshes from which on memory is made free between the analysis and what is written
 
 
 @dataclass(frozen=True)
@@ -166,7 +170,10 @@ def begin(
     file = CorrectionsFile(target)
     history = file.read(tree)
     progress("read", 0)
-    scene = load(source, config.load)
+    with imported_meanwhile(*_NEEDED) if config.load.isolate else nullcontext():
+        scene = load(source, config.load)
+    from cadgraph.session.session import Session
+
     check_layers(source, target, config.load.asset_roots)
     return Session.start(
         scene,
@@ -331,8 +338,6 @@ def check_target(source: str | Path, target: Path) -> None:
     Raises:
         OutputError: it would.
     """
-    from cadgraph.export.usd import check_source
-
     refuse_to_overwrite(target, [source], "the source itself")
     check_source(source, target / "semantics.usda")
 
@@ -348,7 +353,6 @@ def check_layers(source: str | Path, target: Path, asset_roots: Sequence[str] = 
     Raises:
         OutputError: one has.
     """
-    from cadgraph.export.usd import is_usd
     from cadgraph.load.usd_assets import open_layers
 
     if is_usd(source) and ((target / "semantics.usda").exists() or (target / "scene.usdc").exists()):

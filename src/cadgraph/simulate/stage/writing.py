@@ -21,8 +21,9 @@ from cadgraph._io.run_folder import coming_into
 from cadgraph._io.staging import result_path
 from cadgraph.config import LoadConfig
 from cadgraph.export.source import settings_of
-from cadgraph.export.usd import is_split, is_usd, prim_paths, write_semantics
+from cadgraph.export.usd import is_split, prim_paths, write_semantics
 from cadgraph.export.usd_labels import Said, dispositions_of, label_prim, said_of, trace_of
+from cadgraph.export.usd_paths import is_usd
 from cadgraph.export.usd_specs import apply_schemas, define_prim, set_attribute
 from cadgraph.load import load
 from cadgraph.load.packing import metres_z_up
