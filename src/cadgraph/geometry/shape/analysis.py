@@ -101,16 +101,16 @@ def _measure(surface: Surface, middle: Floats, box_axes: Floats, extents: Floats
     ports, lines = find_ports(discs)
     tries = [(line[0].center, line[0].normal) for line in lines[:3]] or [(middle, axis) for axis in box_axes]
     measured = [look_along(surface, center, axis, level) for center, axis in tries]
-    best = int(np.argmax([turned + (sides >= 5) - 0.02 * k for k, (turned, sides, _, _) in enumerate(measured)]))
-    center, axis = tries[best]
-    turned, sides, radius, along = measured[best]
-    low, high = (float(along.min()), float(along.max())) if along.size else (0.0, 0.0)
-    outer, inner, bore = find_profile(surface, center, axis, low, high)
-    rim, spokes = find_wheel(surface, center, axis, radius)
+    best = int(np.argmax([one.turned + (one.sides >= 5) - 0.02 * k for k, one in enumerate(measured)]))
+    (center, axis), seen = tries[best], measured[best]
+    low, high = (float(seen.along.min()), float(seen.along.max())) if seen.along.size else (0.0, 0.0)
+    outer, inner, bore = find_profile(surface, seen, low, high)
+    rim, spokes = find_wheel(surface, seen)
     box = float(np.prod(extents))
     return Facts(
-        discs=tuple(discs), ports=tuple(ports), center=center, axis=axis, low=low, high=high, radius=radius,
-        turned=turned, sides=sides, outer=outer, inner=inner, bore=bore if is_round(turned, sides) else 0.0,
+        discs=tuple(discs), ports=tuple(ports), center=center, axis=axis, low=low, high=high, radius=seen.radius,
+        turned=seen.turned, sides=seen.sides, outer=outer, inner=inner,
+        bore=bore if is_round(seen.turned, seen.sides) else 0.0,
         tube=_tube_length(ports, float(surface.areas.sum()), volume, extents), rim=rim, spokes=spokes,
         section=extents, fill=volume / box if box > 0 else 0.0,
         extruded=_extruded_side(surface, middle, box_axes, extents),

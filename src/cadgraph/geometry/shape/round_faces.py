@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from itertools import islice
+from typing import Any
 
 import numpy as np
 
+from cadgraph.geometry.kernels.parallel import compiled, readable
 from cadgraph.geometry.shape.surface import Level, Surface, equal_values
 from cadgraph.model.parts import Bools
 from cadgraph.model.scene import Floats, Ints
@@ -14,6 +16,10 @@ from cadgraph.model.shapes import PARALLEL, Disc
 __all__ = ["angles_about", "count_corners", "find_discs", "find_ports", "same_line"]
 
 _MIN_AREA = 1e-4  # smaller patches are no end faces (share of the part's area): those of a 12 m pipe DN50 have 2e-4
+_LEAST_CORNERS = 5  # of a rim
+_LEAST_RADIUS, _FLAT = 1e-3, 1e-5  # m
+_DIGITS = 9  # of a radius in m, and an area in m2, that are no rounding
+_SAME_CORNER = 0.01  # rad; corners of several faces, and of both ends
 _MAX_PATCHES = 64  # only so many patches of a part are looked at, those of most faces first: round ones have many
 
 
@@ -31,71 +37,145 @@ def find_discs(surface: Surface, patches: Ints, middle: Floats, level: Level) ->
     groups = sorted(equal_values(patches, 3), key=len, reverse=True)
     large = (faces for faces in groups if surface.areas[faces].sum() >= _MIN_AREA * whole)
     for faces in islice(large, _MAX_PATCHES):
-        areas = surface.areas[faces]
-        center = (areas[:, None] * surface.triangles[faces].mean(axis=1)).sum(axis=0) / areas.sum()
-        largest = surface.normals[faces[np.argmax(areas)]]
-        senses = np.sign(surface.normals[faces] @ largest)
-        normal = (areas * senses) @ surface.normals[faces]
-        found.append(
-            _disc(
-                surface.triangles[faces].reshape(-1, 3), surface.corners[faces].reshape(-1), center,
-                normal / np.linalg.norm(normal), float(areas.sum()), level,
-            )
-        )  # fmt: skip
+        points, center, normal = surface.triangles[faces], np.empty(3), np.empty(3)
+        area = _flat_face(points, surface.normals[faces], surface.areas[faces], center, normal)
+        found.append(_disc(points.reshape(-1, 3), surface.corners[faces].reshape(-1), center, normal, area, level))
     for lines, meant in islice(zip(surface.rims, surface.rim_corners, strict=True), _MAX_PATCHES):
         size = np.linalg.norm(lines[:, 1] - lines[:, 0], axis=1)
         center = (size[:, None] * lines.mean(axis=1)).sum(axis=0) / size.sum()
         normal = np.linalg.svd(lines.reshape(-1, 3) - center, full_matrices=False)[2][2]
         normal = normal * (1.0 if normal @ (center - middle) >= 0 else -1.0)
         found.append(_disc(lines.reshape(-1, 3), meant.reshape(-1), center, normal, 0.0, level))
-    return sorted((disc for disc in found if disc is not None), key=lambda disc: -disc.outer)
+    # Of discs as wide as each other the one of more faces stays first: rounding must not choose.
+    return sorted((disc for disc in found if disc is not None), key=lambda disc: -round(disc.outer, _DIGITS))
 
 
 def _disc(points: Floats, meant: Bools, center: Floats, normal: Floats, area: float, level: Level) -> Disc | None:
     """A disc if the outermost of the points that are corners of the shape lie evenly on a circle about the centre."""
-    points = points[meant]
-    if len(points) < 5:
+    angles = np.empty(len(points))
+    outer, least, count = _find_rim(points, meant, center, normal, level.rim, level.bulge, angles)
+    if count < _LEAST_CORNERS:
         return None
-    apart = points - center
-    height = apart @ normal
-    radii = np.linalg.norm(apart - height[:, None] * normal, axis=1)
-    outer = float(radii.max())
-    if outer < 1e-3 or np.abs(height).max() > level.bulge * outer + 1e-5:
-        return None
-    rim = radii >= level.rim * outer
-    sides, full = count_corners(apart[rim], normal, level.gap) if rim.sum() >= 5 else (0, 0.0)
+    sides, full = count_corners(np.sort(angles[:count]), level.gap)
     if not sides:
         return None
     solid = area >= 0.97 * full * outer**2
-    inner = 0.0 if solid else float(radii.min()) if area else outer
-    return Disc(center, normal, outer, inner, sides, area)
-
-
-def count_corners(points: Floats, axis: Floats, gap: float) -> tuple[int, float]:
-    """How many corners go around an axis through the origin, and the area of that polygon at radius 1.
-
-    Args:
-        points: ``(n, 3)`` [m].
-        axis: ``(3,)`` unit.
-        gap: greatest angle between neighbouring corners [rad]; where one is wider, both results are 0.
-    """
-    angles = angles_about(axis, points)
-    steps = np.diff(np.append(angles, angles[0] + 2 * np.pi))
-    steps = steps[steps > 0.01]  # corners of several faces, and of both ends
-    if not len(steps) or steps.max() > gap:
-        return 0, 0.0
-    return len(steps), float(np.sin(steps).sum() / 2)
+    return Disc(center, normal, outer, 0.0 if solid else least if area else outer, sides, area)
 
 
 def angles_about(axis: Floats, points: Floats) -> Floats:
     """The angles of points ``(n, 3)`` around an axis through the origin, ascending [rad]."""
-    x, y, z = axis.tolist()
+    angles = np.empty(len(points))
+    _angles(readable(points, np.float64), readable(axis, np.float64), angles)
+    return np.sort(angles)
+
+
+@compiled
+def count_corners(angles: Any, gap: float) -> tuple[int, float]:
+    """How many corners go around an axis, and the area of that polygon at radius 1.
+
+    Args:
+        angles: ``(n,)`` of points, ascending [rad].
+        gap: greatest angle between neighbouring corners [rad]; where one is wider, both results are 0.
+    """
+    count, area = 0, 0.0
+    for i in range(len(angles)):
+        step = (angles[i + 1] if i + 1 < len(angles) else angles[0] + 2 * np.pi) - angles[i]
+        if step > gap:
+            return 0, 0.0
+        if step > _SAME_CORNER:
+            count += 1
+            area += np.sin(step) / 2
+    return count, area
+
+
+@compiled
+def _flat_face(triangles: Any, normals: Any, areas: Any, center: Any, normal: Any) -> float:
+    """Centre and mean normal of the triangles of a flat face, either way round; returns its area."""
+    largest = 0
+    for f in range(len(areas)):
+        if areas[f] > areas[largest]:
+            largest = f
+    area = 0.0
+    for i in range(3):
+        center[i] = normal[i] = 0.0
+    for f in range(len(areas)):
+        along = 0.0
+        for i in range(3):
+            along += normals[f, i] * normals[largest, i]
+        sense = areas[f] if along > 0 else -areas[f] if along < 0 else 0.0
+        area += areas[f]
+        for i in range(3):
+            center[i] += areas[f] * (triangles[f, 0, i] + triangles[f, 1, i] + triangles[f, 2, i]) / 3
+            normal[i] += sense * normals[f, i]
+    length = np.sqrt(normal[0] ** 2 + normal[1] ** 2 + normal[2] ** 2)
+    for i in range(3):
+        center[i] /= area
+        normal[i] /= length
+    return area
+
+
+@compiled
+def _find_rim(
+    points: Any, meant: Any, center: Any, normal: Any, rim: float, bulge: float, angles: Any
+) -> tuple[float, float, int]:
+    """The corners farthest from the middle of a flat face.
+
+    Args:
+        points: ``(n, 3)`` [m].
+        meant: ``(n,)`` whether each is a corner of the shape.
+        center: ``(3,)`` of the face [m].
+        normal: ``(3,)`` of the face, unit.
+        rim: corners at this share of the greatest distance are counted.
+        bulge: no corner may leave the plane by more than this share of the greatest distance.
+        angles: ``(n,)`` filled with those of the corners that are counted, as many as there are [rad].
+
+    Returns:
+        Greatest and least distance of the corners [m], and how many are counted: none where they lie in no plane.
+    """
+    x, y, z = normal[0], normal[1], normal[2]
+    outer, least, high, count = 0.0, np.inf, 0.0, 0
+    for i in range(len(points)):
+        if meant[i]:
+            a, b, c = points[i, 0] - center[0], points[i, 1] - center[1], points[i, 2] - center[2]
+            height = a * x + b * y + c * z
+            a, b, c = a - height * x, b - height * y, c - height * z
+            angles[i] = np.sqrt(a * a + b * b + c * c)
+            outer, least, high = max(outer, angles[i]), min(least, angles[i]), max(high, abs(height))
+            count += 1
+    if count < _LEAST_CORNERS or outer < _LEAST_RADIUS or high > bulge * outer + _FLAT:
+        return outer, least, 0
+    u, w = _across(x, y, z)
+    count = 0
+    for i in range(len(points)):
+        if meant[i] and angles[i] >= rim * outer:
+            a, b, c = points[i, 0] - center[0], points[i, 1] - center[1], points[i, 2] - center[2]
+            angles[count] = np.arctan2(a * w[0] + b * w[1] + c * w[2], a * u[0] + b * u[1] + c * u[2])
+            count += 1
+    return outer, least, count
+
+
+@compiled
+def _angles(points: Any, axis: Any, angles: Any) -> None:
+    u, w = _across(axis[0], axis[1], axis[2])
+    for i in range(len(points)):
+        a, b, c = points[i, 0], points[i, 1], points[i, 2]
+        angles[i] = np.arctan2(a * w[0] + b * w[1] + c * w[2], a * u[0] + b * u[1] + c * u[2])
+
+
+@compiled
+def _across(x: float, y: float, z: float) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
+    """Two unit vectors across a unit vector and each other."""
     # Any direction across the axis will do, taken from the least component so that it is far from the axis.
-    u = np.array([(0.0, -z, y), (z, 0.0, -x), (-y, x, 0.0)][int(np.argmin(np.abs(axis)))])
-    u = u / np.linalg.norm(u)
-    w = np.array([y * u[2] - z * u[1], z * u[0] - x * u[2], x * u[1] - y * u[0]])
-    angles: Floats = np.sort(np.arctan2(points @ w, points @ u))
-    return angles
+    if abs(x) <= abs(y) and abs(x) <= abs(z):
+        a, b, c = 0.0, -z, y
+    elif abs(y) <= abs(z):
+        a, b, c = z, 0.0, -x
+    else:
+        a, b, c = -y, x, 0.0
+    long = np.sqrt(a * a + b * b + c * c)
+    a, b, c = a / long, b / long, c / long
+    return (a, b, c), (y * c - z * b, z * a - x * c, x * b - y * a)
 
 
 def find_ports(discs: list[Disc]) -> tuple[list[Disc], list[list[Disc]]]:
@@ -122,7 +202,7 @@ def _by_axis(discs: list[Disc]) -> list[list[Disc]]:
                 break
         else:
             lines.append([disc])
-    return sorted(lines, key=lambda line: -sum(np.pi * disc.outer**2 for disc in line))
+    return sorted(lines, key=lambda line: -round(sum(np.pi * disc.outer**2 for disc in line), _DIGITS))
 
 
 def same_line(point: Floats, axis: Floats, other_point: Floats, other_axis: Floats, offset: float) -> bool:

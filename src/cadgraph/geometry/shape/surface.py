@@ -15,6 +15,7 @@ __all__ = ["LEVELS", "Level", "Surface", "equal_values", "find_surfaces"]
 
 _WELD = 1e-6  # corners closer than this are one [m]
 _THIN = 1e-9
+_PLANE = 0.9998  # of a flat face the mean normal is as long; of one that bends by 2 degrees it is shorter
 _MOST_AT_EDGE = 8
 _STRAIGHT = 2e-5  # creases that turn by less than a third of a degree are one
 
@@ -54,6 +55,7 @@ class Surface:
         triangles: ``(n, 3, 3)`` corners [m].
         normals: ``(n, 3)`` unit, outward where the mesh is closed.
         areas: ``(n,)`` [m2].
+        middles: ``(n, 3)`` the middle of the flat face that each is of [m]: the same however that is cut up.
         patches: ``(len(LEVELS), n)`` the flat patch of each face.
         corners: ``(n, 3)`` whether each corner of a face is one of the shape: not where a plane or a straight edge is
             merely cut up.
@@ -64,6 +66,7 @@ class Surface:
     triangles: Floats
     normals: Floats
     areas: Floats
+    middles: Floats
     patches: Ints
     corners: Bools
     rims: list[Floats]
@@ -84,6 +87,7 @@ def find_surfaces(scene: Scene, properties: Properties) -> list[Surface]:
     double = np.linalg.norm(cross, axis=1)
     normals = cross / np.maximum(double, _THIN**2)[:, None]
     patches, corners, rims = _flat_patches(triangles, normals, owner)
+    middles = _middles(triangles, normals, double / 2, patches[0])
     offsets = np.searchsorted(owner, np.arange(scene.n_meshes + 1)).tolist()
     surfaces = []
     for mesh in range(scene.n_meshes):
@@ -92,11 +96,22 @@ def find_surfaces(scene: Scene, properties: Properties) -> list[Surface]:
         loops = rims.get(mesh, [])
         surfaces.append(
             Surface(
-                triangles[faces], normals[faces] * inward, double[faces] / 2, patches[:, faces], corners[faces],
-                [lines for lines, _ in loops], [ends for _, ends in loops],
+                triangles[faces], normals[faces] * inward, double[faces] / 2, middles[faces], patches[:, faces],
+                corners[faces], [lines for lines, _ in loops], [ends for _, ends in loops],
             )
         )  # fmt: skip
     return surfaces
+
+
+def _middles(triangles: Floats, normals: Floats, areas: Floats, patch: Ints) -> Floats:
+    """The middles of the patches that faces are of; of a patch that bends, a face's own."""
+    own = triangles.mean(axis=1)
+    whole = np.maximum(np.bincount(patch, weights=areas), _THIN**2)[:, None]
+    middle = np.stack([np.bincount(patch, weights=areas * own[:, d]) for d in range(3)], axis=1)
+    normal = np.stack([np.bincount(patch, weights=areas * normals[:, d]) for d in range(3)], axis=1)
+    # Faces that turn little by little are joined, too: their triangles speak for themselves.
+    flat = np.linalg.norm(normal / whole, axis=1) > _PLANE
+    return np.where(flat[patch][:, None], (middle / whole)[patch], own)
 
 
 _Rims = dict[int, list[tuple[Floats, Bools]]]
