@@ -332,10 +332,17 @@ def test_modules_are_named_by_what_they_are():
     assert {path for word, path in words.items() if word in VAGUE} == set()
 
 
+def brought_by(module, among):
+    code = f"import sys, {module}; print(*sorted(set({sorted(among)}) & set(sys.modules)))"
+    return subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.split()
+
+
 def test_importing_cadgraph_brings_nothing_heavy():
-    code = f"import sys, cadgraph; print(*sorted(set({sorted(HEAVY)}) & set(sys.modules)))"
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert done.stdout.split() == []
+    assert brought_by("cadgraph", HEAVY | {"numpy", "pydantic"}) == []
+
+
+def test_the_command_line_brings_nothing_heavy():
+    assert brought_by("cadgraph.cli", HEAVY) == []
 
 
 def test_the_public_names_are_sorted_and_all_there():

@@ -17,7 +17,6 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from cadgraph._io.moved import keep_old_names
-from cadgraph.config import Config, read_config
 from cadgraph.errors import (
     CadGraphError,
     FormatError,
@@ -30,30 +29,31 @@ from cadgraph.errors import (
     UnknownNode,
 )
 from cadgraph.load import load
-from cadgraph.model.diagnostic import Diagnostic
-from cadgraph.model.given_labels import GivenLabel, read_labels
-from cadgraph.model.graph import SceneGraph
-from cadgraph.model.labels import Guess, Label
-from cadgraph.model.records import (
-    Adjacent,
-    Cluster,
-    Connected,
-    Contains,
-    Joint,
-    Junction,
-    Part,
-    Related,
-    Site,
-    System,
-    Terminal,
-    Unit,
-)
-from cadgraph.model.scene import Scene
-from cadgraph.model.vocabulary import Vocabulary, default_vocabulary, read_vocabulary
 
 if TYPE_CHECKING:
+    from cadgraph.config import Config, read_config
     from cadgraph.hydraulics.process import Process
     from cadgraph.labelers.base import Labeling
+    from cadgraph.model.diagnostic import Diagnostic
+    from cadgraph.model.given_labels import GivenLabel, read_labels
+    from cadgraph.model.graph import SceneGraph
+    from cadgraph.model.labels import Guess, Label
+    from cadgraph.model.records import (
+        Adjacent,
+        Cluster,
+        Connected,
+        Contains,
+        Joint,
+        Junction,
+        Part,
+        Related,
+        Site,
+        System,
+        Terminal,
+        Unit,
+    )
+    from cadgraph.model.scene import Scene
+    from cadgraph.model.vocabulary import Vocabulary, default_vocabulary, read_vocabulary
     from cadgraph.pipeline import analyse, build, interpret
     from cadgraph.session.run import run
     from cadgraph.session.session import Session
@@ -106,19 +106,33 @@ __all__ = [
 
 keep_old_names()
 
-# These bring compiled kernels or scipy with them; 'import cadgraph' stays quick without.
+# 'import cadgraph' brings no library with it but what reading a file needs: processes that only read start quickly.
 _LATER = {
-    "Labeling": "cadgraph.labelers.base",
-    "Process": "cadgraph.hydraulics.process",
-    "Session": "cadgraph.session.session",
-    "analyse": "cadgraph.pipeline",
-    "build": "cadgraph.pipeline",
-    "interpret": "cadgraph.pipeline",
-    "run": "cadgraph.session.run",
+    "cadgraph.config": ("Config", "read_config"),
+    "cadgraph.hydraulics.process": ("Process",),
+    "cadgraph.labelers.base": ("Labeling",),
+    "cadgraph.model.diagnostic": ("Diagnostic",),
+    "cadgraph.model.given_labels": ("GivenLabel", "read_labels"),
+    "cadgraph.model.graph": ("SceneGraph",),
+    "cadgraph.model.labels": ("Guess", "Label"),
+    "cadgraph.model.records": (
+        *("Adjacent", "Cluster", "Connected", "Contains", "Joint", "Junction", "Part", "Related", "Site", "System"),
+        *("Terminal", "Unit"),
+    ),
+    "cadgraph.model.scene": ("Scene",),
+    "cadgraph.model.vocabulary": ("Vocabulary", "default_vocabulary", "read_vocabulary"),
+    "cadgraph.pipeline": ("analyse", "build", "interpret"),
+    "cadgraph.session.run": ("run",),
+    "cadgraph.session.session": ("Session",),
 }
+_HOLDER = {name: module for module, names in _LATER.items() for name in names}
 
 
 def __getattr__(name: str) -> Any:
-    if name in _LATER:
-        return getattr(import_module(_LATER[name]), name)
+    if name in _HOLDER:
+        return getattr(import_module(_HOLDER[name]), name)
     raise AttributeError(f"module 'cadgraph' has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *_HOLDER})

@@ -130,6 +130,20 @@ def test_walls_turn_by_as_much_in_any_number_of_sides():
     np.testing.assert_allclose(features[0], features[1], atol=0.02)
 
 
+def test_a_shape_looks_the_same_beside_others():
+    # Rounded to the hundred-thousandth of its size, one box begins where the other does not yet.
+    vertices, faces = BOX
+    other = np.array(vertices, float)
+    low = other[:, 0] == other[:, 0].min()
+    size = np.linalg.norm(np.ptp(other, axis=0))
+    other[low & (other[:, 2] > other[:, 2].min()), 0] += 1e-5 * size
+    parts = parts_of((other, faces), BOX)
+    together = edge_features(parts.scene, parts.properties)
+    for row, mesh in zip(together, ((other, faces), BOX), strict=True):
+        alone = parts_of(mesh)
+        np.testing.assert_allclose(row, edge_features(alone.scene, alone.properties)[0], atol=1e-9)
+
+
 def test_soup_is_welded():
     vertices, faces = BOX
     vertices, faces = np.asarray(vertices), np.asarray(faces)

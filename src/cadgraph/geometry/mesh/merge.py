@@ -7,7 +7,7 @@ import numpy.typing as npt
 
 from cadgraph.model.scene import Ints
 
-__all__ = ["merge_rows", "row_keys", "weld_points"]
+__all__ = ["merge_rows", "weld_points"]
 
 
 def weld_points(points: npt.NDArray[np.floating], tolerance: float = 0.0) -> tuple[Ints, Ints]:
@@ -28,7 +28,7 @@ def weld_points(points: npt.NDArray[np.floating], tolerance: float = 0.0) -> tup
 
 
 def merge_rows(rows: npt.NDArray[np.integer]) -> tuple[Ints, Ints]:
-    """Finds equal rows; several times faster than ``numpy.unique`` over an axis.
+    """Finds equal rows; several times faster than ``numpy.unique`` over an axis, and without a compiler.
 
     Args:
         rows: ``(n, k)`` whole numbers.
@@ -37,7 +37,7 @@ def merge_rows(rows: npt.NDArray[np.integer]) -> tuple[Ints, Ints]:
         ``(n_different,)`` the first row of each kind, ascending; and ``(n,)`` the kind of each row.
     """
     whole: Ints = np.asarray(rows, np.int64)
-    key = row_keys(whole)
+    key = _keys(whole)
     order = np.argsort(key, kind="stable")
     starts = np.ones(len(rows), np.bool_)
     starts[1:] = key[order][1:] != key[order][:-1]
@@ -53,15 +53,10 @@ def merge_rows(rows: npt.NDArray[np.integer]) -> tuple[Ints, Ints]:
     return first[ascending], kind
 
 
-def row_keys(rows: npt.NDArray[np.integer], start: npt.NDArray[np.integer] | None = None) -> npt.NDArray[np.uint64]:
-    """A number for each row that equal rows share, and two different ones with a chance of 1e-8 in a million rows.
-
-    Args:
-        rows: ``(n, k)`` whole numbers.
-        start: ``(n,)`` one more column; 0 by default.
-    """
-    key = np.zeros(len(rows), np.uint64) if start is None else start.astype(np.uint64)
-    for column in np.asarray(rows, np.int64).T:
+def _keys(rows: Ints) -> npt.NDArray[np.uint64]:
+    """A number for each row that equal rows share, and two different ones with a chance of 1e-8 in a million rows."""
+    key = np.zeros(len(rows), np.uint64)
+    for column in rows.T:
         key = (key ^ column.astype(np.uint64)) * np.uint64(0x9E3779B97F4A7C15)
         key ^= key >> np.uint64(29)
     return key

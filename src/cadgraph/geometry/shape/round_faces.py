@@ -32,28 +32,33 @@ def find_discs(surface: Surface, patches: Ints, middle: Floats, level: Level) ->
         middle: ``(3,)`` of the mesh; rims face away from it [m].
         level: how exact they must be.
     """
-    whole = float(surface.areas.sum())
-    found = []
-    groups = sorted(equal_values(patches, 3), key=len, reverse=True)
-    large = (faces for faces in groups if surface.areas[faces].sum() >= _MIN_AREA * whole)
-    for faces in islice(large, _MAX_PATCHES):
-        points, center, normal = surface.triangles[faces], np.empty(3), np.empty(3)
-        area = _flat_face(points, surface.normals[faces], surface.areas[faces], center, normal)
-        found.append(_disc(points.reshape(-1, 3), surface.corners[faces].reshape(-1), center, normal, area, level))
+    least = _MIN_AREA * float(surface.areas.sum())
+    found: list[Disc | None] = []
+    looked_at = 0
+    for faces in sorted(equal_values(patches, 3), key=len, reverse=True):
+        center, normal = np.empty(3), np.empty(3)
+        area = _flat_face(surface.triangles, surface.normals, surface.areas, faces, center, normal)
+        if area >= least:
+            found.append(_disc(surface.triangles, surface.corners, faces, center, normal, area, level))
+            looked_at += 1
+            if looked_at == _MAX_PATCHES:
+                break
     for lines, meant in islice(zip(surface.rims, surface.rim_corners, strict=True), _MAX_PATCHES):
         size = np.linalg.norm(lines[:, 1] - lines[:, 0], axis=1)
         center = (size[:, None] * lines.mean(axis=1)).sum(axis=0) / size.sum()
         normal = np.linalg.svd(lines.reshape(-1, 3) - center, full_matrices=False)[2][2]
         normal = normal * (1.0 if normal @ (center - middle) >= 0 else -1.0)
-        found.append(_disc(lines.reshape(-1, 3), meant.reshape(-1), center, normal, 0.0, level))
+        found.append(_disc(lines, meant, np.arange(len(lines)), center, normal, 0.0, level))
     # Of discs as wide as each other the one of more faces stays first: rounding must not choose.
     return sorted((disc for disc in found if disc is not None), key=lambda disc: -round(disc.outer, _DIGITS))
 
 
-def _disc(points: Floats, meant: Bools, center: Floats, normal: Floats, area: float, level: Level) -> Disc | None:
+def _disc(
+    lines: Floats, meant: Bools, rows: Ints, center: Floats, normal: Floats, area: float, level: Level
+) -> Disc | None:
     """A disc if the outermost of the points that are corners of the shape lie evenly on a circle about the centre."""
-    angles = np.empty(len(points))
-    outer, least, count = _find_rim(points, meant, center, normal, level.rim, level.bulge, angles)
+    angles = np.empty(len(rows) * lines.shape[1])
+    outer, least, count = _find_rim(lines, meant, rows, center, normal, level.rim, level.bulge, angles)
     if count < _LEAST_CORNERS:
         return None
     sides, full = count_corners(np.sort(angles[:count]), level.gap)
@@ -90,16 +95,16 @@ def count_corners(angles: Any, gap: float) -> tuple[int, float]:
 
 
 @compiled
-def _flat_face(triangles: Any, normals: Any, areas: Any, center: Any, normal: Any) -> float:
+def _flat_face(triangles: Any, normals: Any, areas: Any, faces: Any, center: Any, normal: Any) -> float:
     """Centre and mean normal of the triangles of a flat face, either way round; returns its area."""
-    largest = 0
-    for f in range(len(areas)):
+    largest = faces[0]
+    for f in faces:
         if areas[f] > areas[largest]:
             largest = f
     area = 0.0
     for i in range(3):
         center[i] = normal[i] = 0.0
-    for f in range(len(areas)):
+    for f in faces:
         along = 0.0
         for i in range(3):
             along += normals[f, i] * normals[largest, i]
@@ -117,41 +122,47 @@ def _flat_face(triangles: Any, normals: Any, areas: Any, center: Any, normal: An
 
 @compiled
 def _find_rim(
-    points: Any, meant: Any, center: Any, normal: Any, rim: float, bulge: float, angles: Any
+    lines: Any, meant: Any, rows: Any, center: Any, normal: Any, rim: float, bulge: float, angles: Any
 ) -> tuple[float, float, int]:
     """The corners farthest from the middle of a flat face.
 
     Args:
-        points: ``(n, 3)`` [m].
-        meant: ``(n,)`` whether each is a corner of the shape.
+        lines: ``(n, k, 3)`` points of triangles or edges [m].
+        meant: ``(n, k)`` whether each is a corner of the shape.
+        rows: ``(m,)`` those that count.
         center: ``(3,)`` of the face [m].
         normal: ``(3,)`` of the face, unit.
         rim: corners at this share of the greatest distance are counted.
         bulge: no corner may leave the plane by more than this share of the greatest distance.
-        angles: ``(n,)`` filled with those of the corners that are counted, as many as there are [rad].
+        angles: ``(m * k,)`` filled with those of the corners that are counted, as many as there are [rad].
 
     Returns:
         Greatest and least distance of the corners [m], and how many are counted: none where they lie in no plane.
     """
     x, y, z = normal[0], normal[1], normal[2]
     outer, least, high, count = 0.0, np.inf, 0.0, 0
-    for i in range(len(points)):
-        if meant[i]:
-            a, b, c = points[i, 0] - center[0], points[i, 1] - center[1], points[i, 2] - center[2]
-            height = a * x + b * y + c * z
-            a, b, c = a - height * x, b - height * y, c - height * z
-            angles[i] = np.sqrt(a * a + b * b + c * c)
-            outer, least, high = max(outer, angles[i]), min(least, angles[i]), max(high, abs(height))
-            count += 1
+    for f in rows:
+        for k in range(lines.shape[1]):
+            if meant[f, k]:
+                a, b, c = lines[f, k, 0] - center[0], lines[f, k, 1] - center[1], lines[f, k, 2] - center[2]
+                height = a * x + b * y + c * z
+                a, b, c = a - height * x, b - height * y, c - height * z
+                radius = np.sqrt(a * a + b * b + c * c)
+                outer, least, high = max(outer, radius), min(least, radius), max(high, abs(height))
+                count += 1
     if count < _LEAST_CORNERS or outer < _LEAST_RADIUS or high > bulge * outer + _FLAT:
         return outer, least, 0
     u, w = _across(x, y, z)
     count = 0
-    for i in range(len(points)):
-        if meant[i] and angles[i] >= rim * outer:
-            a, b, c = points[i, 0] - center[0], points[i, 1] - center[1], points[i, 2] - center[2]
-            angles[count] = np.arctan2(a * w[0] + b * w[1] + c * w[2], a * u[0] + b * u[1] + c * u[2])
-            count += 1
+    for f in rows:
+        for k in range(lines.shape[1]):
+            if meant[f, k]:
+                a, b, c = lines[f, k, 0] - center[0], lines[f, k, 1] - center[1], lines[f, k, 2] - center[2]
+                height = a * x + b * y + c * z
+                p, q, r = a - height * x, b - height * y, c - height * z
+                if np.sqrt(p * p + q * q + r * r) >= rim * outer:
+                    angles[count] = np.arctan2(a * w[0] + b * w[1] + c * w[2], a * u[0] + b * u[1] + c * u[2])
+                    count += 1
     return outer, least, count
 
 

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
+from cadgraph.geometry.kernels.distinct import number_rows
+from cadgraph.geometry.kernels.parallel import compiled
+from cadgraph.geometry.mesh.edges import edges_of
 from cadgraph.model.parts import Bools, Properties
 from cadgraph.model.scene import Floats, Ints, Scene, mesh_of_face
 
@@ -128,12 +132,9 @@ def _flat_patches(triangles: Floats, normals: Floats, owner: Ints) -> tuple[Ints
     if n == 0:
         return np.zeros((len(LEVELS), 0), np.int64), np.zeros((0, 3), np.bool_), {}
     corner = _weld(triangles, owner)
-    ends = np.sort(corner[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
-    edge = ends[:, 0] * (corner.max() + 1) + ends[:, 1]
-    order = np.argsort(edge, kind="stable")
-    same = edge[order][1:] == edge[order][:-1]
-    first, second = _meeting(edge[order])
-    first, second = order[first], order[second]
+    edges = edges_of(corner)
+    first, second = _meeting(np.repeat(np.arange(len(edges.sizes)), edges.sizes))
+    first, second = edges.sides[first], edges.sides[second]
     a, b = first // 3, second // 3
     cosine = np.abs(np.einsum("ij,ij->i", normals[a], normals[b]))
     patches = np.empty((len(LEVELS), n), np.int64)
@@ -141,13 +142,13 @@ def _flat_patches(triangles: Floats, normals: Floats, owner: Ints) -> tuple[Ints
         flat = cosine > level.parallel
         links = coo_array((np.ones(int(flat.sum()), np.int8), (a[flat], b[flat])), shape=(n, n))
         patches[row] = connected_components(links, directed=False)[1]
-    alone = np.ones(len(order), np.bool_)
-    alone[1:] &= ~same
-    alone[:-1] &= ~same
-    free = order[alone & (ends[order, 0] != ends[order, 1])]
+    free = edges.sides[edges.starts[:-1][edges.sizes == 1]]
+    free = free[corner[free // 3, free % 3] != corner[free // 3, (free + 1) % 3]]
     sharp = cosine <= LEVELS[0].parallel
-    corners = _find_corners(triangles, corner, np.concatenate([first[sharp], free]))
-    return patches, corners, _find_rims(triangles, owner, ends, free, corners)
+    corners = np.empty((n, 3), np.bool_)
+    places = np.zeros((int(corner.max()) + 1, 7))
+    _find_corners(triangles, corner, np.concatenate([first[sharp], free]), places, corners)
+    return patches, corners, _find_rims(triangles, owner, corner, free, corners)
 
 
 def _meeting(edge: Ints) -> tuple[Ints, Ints]:
@@ -170,50 +171,61 @@ def _meeting(edge: Ints) -> tuple[Ints, Ints]:
     return np.concatenate([p for p, _ in pairs]), np.concatenate([q for _, q in pairs])
 
 
-def _find_corners(triangles: Floats, corner: Ints, creases: Ints) -> Bools:
-    """Which corners of faces ``(n, 3)`` are ends of creases in more than one direction.
+@compiled
+def _find_corners(triangles: Any, corner: Any, creases: Any, places: Any, corners: Any) -> None:
+    """Finds which corners of faces are ends of creases in more than one direction.
 
     Args:
         triangles: ``(n, 3, 3)`` [m].
         corner: ``(n, 3)`` the place of each.
         creases: edges, numbered by face and corner, where the surface turns or ends.
+        places: ``(n_places, 7)`` zeros: how many creases end at each place, and the products of their directions.
+        corners: ``(n, 3)`` the outcome.
     """
-    face, k = creases // 3, creases % 3
-    way = triangles[face, (k + 1) % 3] - triangles[face, k]
-    way = way / np.maximum(np.linalg.norm(way, axis=1), _THIN**2)[:, None]
-    products = (way[:, :, None] * way[:, None, :]).reshape(-1, 9)
-    n_places = int(corner.max()) + 1
-    tail, head = corner[face, k], corner[face, (k + 1) % 3]
-    both = np.concatenate([tail, head])
-    count, squares = np.bincount(both, minlength=n_places), np.zeros(n_places)
-    for column in range(9):
-        total = np.bincount(both, weights=np.tile(products[:, column], 2), minlength=n_places)
-        squares += total * total
-    # The squares of all cosines between the creases that meet add up to count squared where all run along one line.
-    found: Bools = (count > 0) & ((count == 1) | (squares < (1 - _STRAIGHT) * count.astype(np.float64) ** 2))
-    return found[corner]
+    for c in range(len(creases)):
+        f, k = creases[c] // 3, creases[c] % 3
+        m = (k + 1) % 3
+        x, y = triangles[f, m, 0] - triangles[f, k, 0], triangles[f, m, 1] - triangles[f, k, 1]
+        z = triangles[f, m, 2] - triangles[f, k, 2]
+        square = max(x * x + y * y + z * z, _THIN**4)
+        for end in range(2):
+            place = corner[f, k] if end == 0 else corner[f, m]
+            places[place, 0] += 1.0
+            places[place, 1] += x * x / square
+            places[place, 2] += y * y / square
+            places[place, 3] += z * z / square
+            places[place, 4] += x * y / square
+            places[place, 5] += x * z / square
+            places[place, 6] += y * z / square
+    for f in range(len(corner)):
+        for k in range(3):
+            place = corner[f, k]
+            count, squares = places[place, 0], 0.0
+            for i in range(1, 7):
+                squares += places[place, i] ** 2 * (1.0 if i < 4 else 2.0)
+            # All squared cosines between the creases that meet add up to count squared where they run along one line.
+            corners[f, k] = count > 0 and (count == 1 or squares < (1 - _STRAIGHT) * count * count)
 
 
 def _weld(triangles: Floats, owner: Ints) -> Ints:
     """``(n, 3)`` the same number for corners of one mesh that lie in one place."""
-    grid = np.round(triangles.reshape(-1, 3) / _WELD).astype(np.int64).view(np.uint64)
-    key = np.repeat(owner, 3).astype(np.uint64)
-    for column in grid.T:  # a number for each place; two places share one with a chance of 1e-8 in a million
-        key = (key ^ column) * np.uint64(0x9E3779B97F4A7C15)
-        key ^= key >> np.uint64(29)
-    return np.unique(key, return_inverse=True)[1].reshape(len(triangles), 3).astype(np.int64)
+    rows = np.empty((3 * len(triangles), 4), np.int64)
+    rows[:, :3] = np.round(triangles.reshape(-1, 3) / _WELD)
+    rows[:, 3] = np.repeat(owner, 3)
+    return number_rows(rows)[1].reshape(-1, 3)
 
 
-def _find_rims(triangles: Floats, owner: Ints, ends: Ints, free: Ints, corners: Bools) -> _Rims:
+def _find_rims(triangles: Floats, owner: Ints, corner: Ints, free: Ints, corners: Bools) -> _Rims:
     """For each mesh its loops of at least five edges without a partner, each ``(m, 2, 3)``, and their corners."""
     rims: _Rims = {}
     if not len(free):
         return rims
-    points, inverse = np.unique(ends[free], return_inverse=True)
+    tail, head = free // 3, free % 3
+    ends = np.stack([corner[tail, head], corner[tail, (head + 1) % 3]], axis=1)
+    points, inverse = np.unique(ends, return_inverse=True)
     inverse = inverse.reshape(-1, 2)
     loops = coo_array((np.ones(len(free), np.int8), (inverse[:, 0], inverse[:, 1])), shape=(len(points),) * 2)
     loop = connected_components(loops, directed=False)[1].astype(np.int64)[inverse[:, 0]]
-    tail, head = free // 3, free % 3
     for edges in equal_values(loop, 5):
         f, k = tail[edges], head[edges]
         lines = np.stack([triangles[f, k], triangles[f, (k + 1) % 3]], axis=1)

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
-from cadgraph.geometry.mesh.merge import row_keys
+from cadgraph.geometry.kernels.distinct import number_rows
+from cadgraph.geometry.kernels.parallel import compiled
+from cadgraph.geometry.mesh.edges import edges_of
 from cadgraph.model.parts import Properties
 from cadgraph.model.scene import Floats, Ints, Scene, mesh_of_face
 
@@ -43,30 +47,12 @@ def edge_features(scene: Scene, properties: Properties) -> Floats:
     corner, triangles, owner = _distinct(scene)
     if not len(corner):
         return rows
-    cross = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
-    normals = cross / np.maximum(np.linalg.norm(cross, axis=1), 1e-300)[:, None]
-    sides = np.stack([corner, np.roll(corner, -1, axis=1)], axis=2).reshape(-1, 2)
-    long = np.linalg.norm(np.roll(triangles, -1, axis=1) - triangles, axis=2).reshape(-1)
-    low, high = sides.min(axis=1), sides.max(axis=1)
-    order = np.lexsort((high, low))
-    start = np.concatenate([[True], (np.diff(low[order]) != 0) | (np.diff(high[order]) != 0)])
-    head = np.nonzero(start)[0]
-    count = np.diff(np.append(head, len(order)))
-    first = order[head]
-    mesh, size = owner[first // 3], np.maximum(np.linalg.norm(properties.obb_extents, axis=1), 1e-12)
-    two = np.nonzero(count == 2)[0]
-    angle, inward = _turns(sides, normals, triangles, first[two], order[head[two] + 1], properties, owner)
-    bent = angle > _FLAT
-    turn = (long[first[two]] * angle)[bent]
-    at = mesh[two][bent]
-    place = np.clip(np.interp(angle[bent], _CLASSES, np.arange(len(_CLASSES))), 0, len(_CLASSES) - 1)
-    below = np.minimum(place.astype(np.int64), len(_CLASSES) - 2)
-    np.add.at(rows, (at, below), turn * (1 - (place - below)))
-    np.add.at(rows, (at, below + 1), turn * (place - below))
+    edges = edges_of(corner)
+    _add_turns(
+        triangles, corner, owner, edges.starts, edges.sides, properties.closed & (properties.volume < 0), _CLASSES, rows
+    )
     k = len(_CLASSES)
-    smooth = np.clip(1 - place, 0, 1)
-    np.add.at(rows[:, k], at, turn * smooth * inward[bent])
-    np.add.at(rows[:, k + 1], at, turn * (1 - smooth) * inward[bent])
+    size = np.maximum(np.linalg.norm(properties.obb_extents, axis=1), 1e-12)
     total = rows[:, :k].sum(axis=1)
     rows[:, : k + 2] /= np.maximum(total, 1e-12)[:, None]
     unsure = ~properties.closed
@@ -87,38 +73,90 @@ def _distinct(scene: Scene) -> tuple[Ints, Floats, Ints]:
     good = (corner[:, 0] != corner[:, 1]) & (corner[:, 1] != corner[:, 2]) & (corner[:, 0] != corner[:, 2])
     corner, triangles, owner = corner[good], triangles[good], owner[good]
     if len(corner):
-        once = np.sort(np.unique(row_keys(np.sort(corner, axis=1), owner), return_index=True)[1])
+        once = number_rows(np.column_stack([np.sort(corner, axis=1), owner]))[0]
         corner, triangles, owner = corner[once], triangles[once], owner[once]
     return corner, triangles, owner
 
 
-def _turns(
-    sides: Ints, normals: Floats, triangles: Floats, one: Ints, other: Ints, properties: Properties, owner: Ints
-) -> tuple[Floats, Floats]:
-    """The angle by which the surface turns at edges of two faces [rad], and how far that is inward (0 or 1)."""
-    a, b = one // 3, other // 3
-    # Faces of odd orientation: neighbours that run through their edge in the same sense look the other way.
-    sense = np.where(sides[one, 0] == sides[other, 0], -1.0, 1.0)
-    cosine = np.clip(np.einsum("ij,ij->i", normals[a], normals[b]) * sense, -1, 1)
-    # arccos is blunt near 0: the sine of small angles is exact.
-    sine = np.linalg.norm(np.cross(normals[a], normals[b]), axis=1)
-    angle = np.arctan2(sine, cosine)
-    # The third corner of the other face lies above the plane of this one: a hollow.
-    third = triangles[b, (other % 3 + 2) % 3] - triangles[a, 0]
-    above = np.einsum("ij,ij->i", third, normals[a]) > 0
-    inside_out = properties.closed[owner[a]] & (properties.volume[owner[a]] < 0)
-    # A face folded back onto its neighbour is neither; between faces of odd orientation nobody knows.
-    inward = ((above != inside_out) & (angle < _FOLDED)).astype(np.float64)
-    return angle, np.where(sense < 0, 0.5, inward)
+@compiled
+def _add_turns(
+    triangles: Any, corner: Any, owner: Any, starts: Any, sides: Any, inside_out: Any, classes: Any, rows: Any
+) -> None:
+    """Adds to the row of each mesh by how much it turns at its edges of two faces, by angle; then how much inward.
+
+    Args:
+        triangles: ``(n, 3, 3)`` corners [m].
+        corner: ``(n, 3)`` the place of each.
+        owner: ``(n,)`` mesh of each.
+        starts: where the sides of each edge start.
+        sides: of the edges.
+        inside_out: ``(n_meshes,)`` whether the faces of a closed mesh look inward.
+        classes: ``(n_classes,)`` middles of the classes of angles [rad].
+        rows: ``(n_meshes, n_classes + 2 or more)`` what is added to.
+    """
+    k = len(classes)
+    for e in range(len(starts) - 1):
+        if starts[e + 1] - starts[e] != 2:
+            continue
+        one, other = sides[starts[e]], sides[starts[e] + 1]
+        a, b = one // 3, other // 3
+        ax, ay, az = _normal(triangles, a)
+        bx, by, bz = _normal(triangles, b)
+        # Faces of odd orientation: neighbours that run through their edge in the same sense look the other way.
+        odd = corner[a, one % 3] == corner[b, other % 3]
+        cosine = ax * bx + ay * by + az * bz
+        # The cosine is blunt near 0: the sine of small angles is exact.
+        x, y, z = ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx
+        angle = np.arctan2(np.sqrt(x * x + y * y + z * z), -cosine if odd else cosine)
+        if not angle > _FLAT:
+            continue
+        i, j, m = one % 3, (one + 1) % 3, (other + 2) % 3
+        long, above = 0.0, 0.0
+        for d in range(3):
+            long += (triangles[a, j, d] - triangles[a, i, d]) ** 2
+        # The third corner of the other face lies above the plane of this one: a hollow.
+        above += (triangles[b, m, 0] - triangles[a, 0, 0]) * ax
+        above += (triangles[b, m, 1] - triangles[a, 0, 1]) * ay
+        above += (triangles[b, m, 2] - triangles[a, 0, 2]) * az
+        mesh = owner[a]
+        # A face folded back onto its neighbour is neither; between faces of odd orientation nobody knows.
+        inward = 0.5 if odd else 1.0 if (above > 0) != inside_out[mesh] and angle < _FOLDED else 0.0
+        turn = np.sqrt(long) * angle
+        below = 0
+        while below < k - 2 and angle >= classes[below + 1]:
+            below += 1
+        place = (angle - classes[below]) / (classes[below + 1] - classes[below])
+        place = min(1.0, max(0.0, place))
+        rows[mesh, below] += turn * (1 - place)
+        rows[mesh, below + 1] += turn * place
+        smooth = 1 - place if below == 0 else 0.0
+        rows[mesh, k] += turn * smooth * inward
+        rows[mesh, k + 1] += turn * (1 - smooth) * inward
+
+
+@compiled
+def _normal(triangles: Any, f: int) -> tuple[float, float, float]:
+    """Unit normal of a face; 0 where it has none."""
+    ux, uy, uz = (triangles[f, 1, 0] - triangles[f, 0, 0], triangles[f, 1, 1] - triangles[f, 0, 1],
+                  triangles[f, 1, 2] - triangles[f, 0, 2])  # fmt: skip
+    vx, vy, vz = (triangles[f, 2, 0] - triangles[f, 0, 0], triangles[f, 2, 1] - triangles[f, 0, 1],
+                  triangles[f, 2, 2] - triangles[f, 0, 2])  # fmt: skip
+    x, y, z = uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
+    long = max(np.sqrt(x * x + y * y + z * z), 1e-300)
+    return x / long, y / long, z / long
 
 
 def _welded(triangles: Floats, owner: Ints, n: int) -> Ints:
     """A number for each place of each mesh, ``(n_faces, 3)``."""
     points = triangles.reshape(-1, 3)
+    starts = np.searchsorted(owner, np.arange(n))
+    filled = np.flatnonzero(np.diff(starts, append=len(owner)) > 0)
+    low, size = np.zeros((n, 3)), np.zeros(n)
+    low[filled] = np.minimum.reduceat(points, 3 * starts[filled])
+    extent = np.maximum.reduceat(points, 3 * starts[filled]) - low[filled]
+    size[filled] = np.linalg.norm(np.where(np.isfinite(extent), extent, 0), axis=1)
     mesh = np.repeat(owner, 3)
-    low, high = np.full((n, 3), np.inf), np.full((n, 3), -np.inf)
-    np.minimum.at(low, mesh, points)
-    np.maximum.at(high, mesh, points)
-    size = np.linalg.norm(np.where(np.isfinite(high - low), high - low, 0), axis=1)
-    grid = np.round((points - low[mesh]) / np.maximum(_WELD * size, 1e-9)[mesh, None]).astype(np.int64)
-    return np.unique(row_keys(grid, mesh), return_inverse=True)[1].reshape(-1, 3)
+    rows = np.empty((len(points), 4), np.int64)
+    rows[:, :3] = np.round((points - low[mesh]) / np.maximum(_WELD * size, 1e-9)[mesh, None])
+    rows[:, 3] = mesh
+    return number_rows(rows)[1].reshape(-1, 3)

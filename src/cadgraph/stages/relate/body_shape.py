@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from cadgraph.geometry.mesh.cut import cut_short
 from cadgraph.model.derived import store_of
 from cadgraph.model.parts import Opening, Parts
 from cadgraph.model.scene import Floats
@@ -83,7 +84,7 @@ def surface_about(parts: Parts, some: Collection[int], start: Floats, end: Float
     first /= np.linalg.norm(first)
     across = np.array([first, np.cross(axis, first)])
     corners = np.concatenate([triangles_of(parts, part) for part in sorted(some)]) - (start + end) / 2
-    middles, vectors = _split(corners, length / 12)
+    middles, vectors = cut_short(corners, length / 12)
     twice = np.linalg.norm(vectors, axis=1)
     normal = vectors / np.maximum(twice, 1e-300)[:, None] @ np.vstack([axis, across]).T
     return Surface(middles @ axis / length, middles @ across.T, normal, twice / 2, length, across)
@@ -96,25 +97,6 @@ def triangles_of(parts: Parts, part: int) -> Floats:
     corners = vertices[inside]
     kept: Floats = corners[np.isfinite(corners).all(axis=(1, 2))]
     return kept
-
-
-def _split(corners: Floats, longest: float) -> tuple[Floats, Floats]:
-    """Middles of triangles and normals as long as twice their area, long ones cut in halves until they are short."""
-    middles, vectors = [], []
-    for _ in range(12):
-        edges = np.linalg.norm(corners - np.roll(corners, -1, axis=1), axis=2)
-        long = edges.max(axis=1) > longest if len(corners) < 200_000 else np.zeros(len(corners), bool)
-        done = corners[~long]
-        middles.append(done.mean(axis=1))
-        vectors.append(np.cross(done[:, 1] - done[:, 0], done[:, 2] - done[:, 0]))
-        if not long.any():
-            break
-        left, which = corners[long], edges[long].argmax(axis=1)
-        rows = np.arange(len(left))
-        a, b, c = (left[rows, (which + k) % 3] for k in range(3))
-        half = (a + b) / 2
-        corners = np.concatenate([np.stack([a, half, c], axis=1), np.stack([half, b, c], axis=1)])
-    return np.concatenate(middles), np.concatenate(vectors)
 
 
 def lean_of(parts: Parts, some: Collection[int], line: tuple[Floats, Floats]) -> float | None:
