@@ -32,7 +32,7 @@ _MOST_THREADS = 16
 _GHOST_SAMPLES = 2  # nobody looks closely at what is only hinted at: it is drawn in a quarter of the pixels, too
 _LEAST_HALVED = 256  # [px] a smaller picture is not halved
 _THICK_LINES = 0.5  # lines of two pixels instead of one are so much fainter
-_SHARE, _GHOST_SHARE = 0.75, 1.0  # [px] of the nearest mesh: what is smaller needn't be told apart; among ghosts
+_SHARE, _GHOST_SHARE = 0.75, 4.0  # [px] of the nearest mesh: what is smaller needn't be told apart; among ghosts
 
 
 @dataclass(frozen=True)
