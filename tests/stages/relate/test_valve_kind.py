@@ -62,6 +62,16 @@ def test_lengths_of_both_worlds_tell_kinds_with_the_same_operator_apart(name, le
     assert found[0][1] >= SURE_FROM
 
 
+def test_what_holds_a_disc_is_no_ball_valve_however_long():
+    def found(*names):
+        meshes = [body(0.292), operator("lever", 0.292), turned(shapes.cylinder(0.09, 0.02), (0.146, 0, 0), X)]
+        return dict(kinds(meshes[: len(names)], list(names), 0.292, 200))
+
+    assert found("valve body", "lever")["ball valve"] > SURE_FROM
+    with_disc = found("valve body", "lever", "valve disc")
+    assert with_disc["ball valve"] < 0.5 < with_disc["butterfly valve"] + with_disc["check valve"]
+
+
 def test_gate_and_globe_valves_of_one_length_stay_open_with_both_as_guesses():
     found = kinds([body(0.165), operator("handwheel", 0.165)], ["valve body", "handwheel"], 0.165, 40)
     assert found[0][1] < SURE_FROM

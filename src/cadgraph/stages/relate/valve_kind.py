@@ -99,8 +99,20 @@ _SPRUNG, _UNSPRUNG = (0.6, 0.01), (0.4, 0.99)
 # lever does; and it ends otherwise than it begins (radii).
 _SLENDER, _REACH, _ALONE, _UNLIKE, _TALL = 0.8, 3.2, 0.75, 0.12, 1.6
 # A ball among the parts is that of a ball valve, but for check valves with a ball, and for control valves that turn a
-# segment of one, a fifth of them (ours): driven, and as long as no ball valve is, it may be either.
-_HOLDS_BALL = MappingProxyType({"ball": 1.0, "check": 0.02, "plug": 0.02, "control": 0.2})
+# segment of one, a fifth of them (ours): driven, and as long as no ball valve is, it may be either. A disc is named
+# in two of three butterfly valves, in no ball valve (counted on generated ones).
+_BALL = "valve ball"
+_HOLDS = MappingProxyType(
+    {
+        _BALL: MappingProxyType({"ball": 1.0, "check": 0.02, "plug": 0.02, "control": 0.2, "other": 0.002}),
+        "valve disc": MappingProxyType(
+            {
+                "ball": 0.002, "gate": 0.02, "globe": 0.02, "butterfly": 0.7, "check": 0.1, "plug": 0.1,
+                "diaphragm": 0.02, "relief": 0.05, "control": 0.1, "other": 0.3,
+            }
+        ),
+    }
+)  # fmt: skip
 # How often valves of a kind that is turned by hand have a yoke, which carries a stem that rises (ours); a quarter turn
 # needs none. Brackets of actuators are called so, too.
 _HOLDS_YOKE = MappingProxyType(
@@ -128,7 +140,7 @@ class _Look:
         length: from face to face [m], or None.
         size: nominal (DN), or None.
         sprung: whether it looks like a spring housing with a snout; None where that can't be said.
-        ball: whether there is a ball among its parts.
+        closed_by: what closes it, by the names of its parts: a ball, a disc, or None.
         yoke: whether there is a yoke among its parts, and no actuator or gearbox.
         levers: how many levers there are among its parts.
     """
@@ -140,14 +152,14 @@ class _Look:
     length: float | None
     size: int | None
     sprung: bool | None
-    ball: bool
+    closed_by: str | None
     yoke: bool = False
     levers: int = 0
 
     @property
     def says_something(self) -> bool:
-        """Whether there is anything to tell kinds by: a length alone is that of several, but for wafers."""
-        if self.turned or self.shape or self.covered or self.ball or self.sprung:
+        """Whether there is anything to tell kinds by: a length or a disc alone is that of several, but for wafers."""
+        if self.turned or self.shape or self.covered or self.closed_by == _BALL or self.sprung:
             return True
         return self.length is not None and self.size is not None and _is_wafer(self.length, self.size)
 
@@ -193,8 +205,8 @@ def _likelihood(kind: str, look: _Look) -> float:
 
 
 def _by_parts(kind: str, look: _Look) -> float:
-    """How often a valve of a kind has a ball, a yoke, several levers, the arm of a weight, where this one has."""
-    share = _HOLDS_BALL.get(kind, 0.002) if look.ball else 1.0
+    """How often a valve of a kind has what this one has: a ball or a disc, a yoke, several levers, a weight's arm."""
+    share = _HOLDS[look.closed_by].get(kind, 0.002) if look.closed_by else 1.0
     share *= _HOLDS_YOKE[kind] if look.yoke else 1.0
     share *= _ARM if kind == "check" and _may_be_arm(look) else 1.0
     return share * (_SEVERAL_LEVERS.get(kind, 0.04) if look.levers > 1 else 1.0)
@@ -256,7 +268,7 @@ def _look(unit: UnitParts, names: Sequence[str | None], size: int | None, parts:
         length=None,
         size=size,
         sprung=_is_sprung(unit, names, parts),
-        ball="valve ball" in own,
+        closed_by=next((name for name in _HOLDS if name in own), None),
         yoke="yoke" in own and turned not in ("actuator", "gearbox"),
         levers=named.count("lever"),
     )
