@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass, replace
 from types import MappingProxyType
 
@@ -258,7 +258,8 @@ def _is_one_of(length: float, table: str, size: int, near: float) -> bool:
 def _look(unit: UnitParts, names: Sequence[str | None], size: int | None, parts: Parts) -> _Look:
     named = [names[part] for part in unit.parts]
     own = set(named)
-    turned = next((operator for name, operator in _NAMED.items() if name in own), None)
+    by = _first_of(_NAMED, own)
+    turned = None if by is None else _NAMED[by]
     still = turned is None and not own & _TURNING
     look = _Look(
         turned=turned,
@@ -268,7 +269,7 @@ def _look(unit: UnitParts, names: Sequence[str | None], size: int | None, parts:
         length=None,
         size=size,
         sprung=_is_sprung(unit, names, parts),
-        closed_by=next((name for name in _HOLDS if name in own), None),
+        closed_by=_first_of(_HOLDS, own),
         yoke="yoke" in own and turned not in ("actuator", "gearbox"),
         levers=named.count("lever"),
     )
@@ -276,6 +277,10 @@ def _look(unit: UnitParts, names: Sequence[str | None], size: int | None, parts:
     return (
         look if line is None else _in_line(look, surface_about(parts, unit.parts, *line), still and "valve body" in own)
     )
+
+
+def _first_of(wanted: Iterable[str], names: Collection[str | None]) -> str | None:
+    return next((name for name in wanted if name in names), None)
 
 
 def _in_line(look: _Look, surface: Surface, closed: bool) -> _Look:
