@@ -16,6 +16,7 @@ import numpy as np
 import numpy.typing as npt
 
 from cadgraph.geometry.kernels.borrow import borrow
+from cadgraph.geometry.kernels.frame import across
 from cadgraph.geometry.kernels.parallel import compiled, for_ranges
 from cadgraph.geometry.kernels.split import INDEX, MAX_FACES, halve, record
 from cadgraph.model.scene import Faces, Floats, Ints, Scene
@@ -350,16 +351,7 @@ def _principal_axes(spread: Floats, axes: Floats) -> bool:
         return False
     ux, uy, uz = ux / length, uy / length, uz / length
     # any direction across, then turned to the greatest spread
-    if abs(ux) <= abs(uy) and abs(ux) <= abs(uz):
-        vx, vy, vz = 0.0, -uz, uy
-    elif abs(uy) <= abs(uz):
-        vx, vy, vz = uz, 0.0, -ux
-    else:
-        vx, vy, vz = -uy, ux, 0.0
-    length = np.sqrt(vx * vx + vy * vy + vz * vz)
-    vx, vy, vz = vx / length, vy / length, vz / length
-    wx, wy, wz = uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
-    v, w = (vx, vy, vz), (wx, wy, wz)
+    v, w = across(ux, uy, uz)
     vv = vw = ww = 0.0
     for i in range(3):
         for j in range(3):

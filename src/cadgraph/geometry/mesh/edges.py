@@ -1,4 +1,4 @@
-"""Which sides of triangles are one edge."""
+"""Which corners of triangles are one, and which sides are one edge."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ from typing import NamedTuple
 import numpy as np
 
 from cadgraph.geometry.kernels.distinct import in_groups, number_rows
-from cadgraph.model.scene import Ints
+from cadgraph.model.scene import Floats, Ints
 
-__all__ = ["Edges", "edges_of"]
+__all__ = ["Edges", "edges_of", "places_of"]
 
 
 class Edges(NamedTuple):
@@ -29,6 +29,21 @@ class Edges(NamedTuple):
         """``(n_edges,)`` how many sides each edge has."""
         sizes: Ints = np.diff(self.starts)
         return sizes
+
+
+def places_of(cells: Floats, owner: Ints) -> Ints:
+    """Welds corners that lie in one cell of a grid.
+
+    Args:
+        cells: ``(3 * n_faces, 3)`` of each corner, in cells.
+        owner: ``(n_faces,)`` mesh of each face; those of two are never one.
+
+    Returns:
+        ``(n_faces, 3)`` the place of each corner, as a number of its own.
+    """
+    rows = np.empty((len(cells), 4), np.int64)
+    rows[:, :3], rows[:, 3] = np.round(cells), np.repeat(owner, 3)
+    return number_rows(rows)[1].reshape(-1, 3)
 
 
 def edges_of(corner: Ints) -> Edges:

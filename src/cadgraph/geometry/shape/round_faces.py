@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from cadgraph.geometry.kernels.frame import Vector, across
 from cadgraph.geometry.kernels.parallel import compiled, readable
 from cadgraph.geometry.shape.surface import Level, Surface, equal_values
 from cadgraph.model.parts import Bools
@@ -34,14 +35,12 @@ def find_discs(surface: Surface, patches: Ints, middle: Floats, level: Level) ->
     """
     least = _MIN_AREA * float(surface.areas.sum())
     found: list[Disc | None] = []
-    looked_at = 0
     for faces in sorted(equal_values(patches, 3), key=len, reverse=True):
         center, normal = np.empty(3), np.empty(3)
         area = _flat_face(surface.triangles, surface.normals, surface.areas, faces, center, normal)
         if area >= least:
             found.append(_disc(surface.triangles, surface.corners, faces, center, normal, area, level))
-            looked_at += 1
-            if looked_at == _MAX_PATCHES:
+            if len(found) == _MAX_PATCHES:
                 break
     for lines, meant in islice(zip(surface.rims, surface.rim_corners, strict=True), _MAX_PATCHES):
         size = np.linalg.norm(lines[:, 1] - lines[:, 0], axis=1)
@@ -139,54 +138,48 @@ def _find_rim(
     Returns:
         Greatest and least distance of the corners [m], and how many are counted: none where they lie in no plane.
     """
-    x, y, z = normal[0], normal[1], normal[2]
     outer, least, high, count = 0.0, np.inf, 0.0, 0
     for f in rows:
         for k in range(lines.shape[1]):
             if meant[f, k]:
-                a, b, c = lines[f, k, 0] - center[0], lines[f, k, 1] - center[1], lines[f, k, 2] - center[2]
-                height = a * x + b * y + c * z
-                a, b, c = a - height * x, b - height * y, c - height * z
-                radius = np.sqrt(a * a + b * b + c * c)
+                _, height, radius = _from_axis(lines, f, k, center, normal)
                 outer, least, high = max(outer, radius), min(least, radius), max(high, abs(height))
                 count += 1
     if count < _LEAST_CORNERS or outer < _LEAST_RADIUS or high > bulge * outer + _FLAT:
         return outer, least, 0
-    u, w = _across(x, y, z)
+    u, w = across(normal[0], normal[1], normal[2])
     count = 0
     for f in rows:
         for k in range(lines.shape[1]):
             if meant[f, k]:
-                a, b, c = lines[f, k, 0] - center[0], lines[f, k, 1] - center[1], lines[f, k, 2] - center[2]
-                height = a * x + b * y + c * z
-                p, q, r = a - height * x, b - height * y, c - height * z
-                if np.sqrt(p * p + q * q + r * r) >= rim * outer:
-                    angles[count] = np.arctan2(a * w[0] + b * w[1] + c * w[2], a * u[0] + b * u[1] + c * u[2])
+                apart, _, radius = _from_axis(lines, f, k, center, normal)
+                if radius >= rim * outer:
+                    angles[count] = _angle(apart, u, w)
                     count += 1
     return outer, least, count
 
 
 @compiled
-def _angles(points: Any, axis: Any, angles: Any) -> None:
-    u, w = _across(axis[0], axis[1], axis[2])
-    for i in range(len(points)):
-        a, b, c = points[i, 0], points[i, 1], points[i, 2]
-        angles[i] = np.arctan2(a * w[0] + b * w[1] + c * w[2], a * u[0] + b * u[1] + c * u[2])
+def _from_axis(lines: Any, f: int, k: int, center: Any, axis: Any) -> tuple[Vector, float, float]:
+    """Where a point lies from one on an axis, how far along the axis, and how far from it [m]."""
+    a, b, c = lines[f, k, 0] - center[0], lines[f, k, 1] - center[1], lines[f, k, 2] - center[2]
+    height = a * axis[0] + b * axis[1] + c * axis[2]
+    p, q, r = a - height * axis[0], b - height * axis[1], c - height * axis[2]
+    return (a, b, c), height, np.sqrt(p * p + q * q + r * r)
 
 
 @compiled
-def _across(x: float, y: float, z: float) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
-    """Two unit vectors across a unit vector and each other."""
-    # Any direction across the axis will do, taken from the least component so that it is far from the axis.
-    if abs(x) <= abs(y) and abs(x) <= abs(z):
-        a, b, c = 0.0, -z, y
-    elif abs(y) <= abs(z):
-        a, b, c = z, 0.0, -x
-    else:
-        a, b, c = -y, x, 0.0
-    long = np.sqrt(a * a + b * b + c * c)
-    a, b, c = a / long, b / long, c / long
-    return (a, b, c), (y * c - z * b, z * a - x * c, x * b - y * a)
+def _angle(point: Vector, u: Vector, w: Vector) -> float:
+    a, b, c = point
+    angle: float = np.arctan2(a * w[0] + b * w[1] + c * w[2], a * u[0] + b * u[1] + c * u[2])
+    return angle
+
+
+@compiled
+def _angles(points: Any, axis: Any, angles: Any) -> None:
+    u, w = across(axis[0], axis[1], axis[2])
+    for i in range(len(points)):
+        angles[i] = _angle((points[i, 0], points[i, 1], points[i, 2]), u, w)
 
 
 def find_ports(discs: list[Disc]) -> tuple[list[Disc], list[list[Disc]]]:

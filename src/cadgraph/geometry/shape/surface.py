@@ -9,9 +9,8 @@ import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from cadgraph.geometry.kernels.distinct import number_rows
 from cadgraph.geometry.kernels.parallel import compiled
-from cadgraph.geometry.mesh.edges import edges_of
+from cadgraph.geometry.mesh.edges import edges_of, places_of
 from cadgraph.model.parts import Bools, Properties
 from cadgraph.model.scene import Floats, Ints, Scene, mesh_of_face
 
@@ -131,7 +130,7 @@ def _flat_patches(triangles: Floats, normals: Floats, owner: Ints) -> tuple[Ints
     n = len(triangles)
     if n == 0:
         return np.zeros((len(LEVELS), 0), np.int64), np.zeros((0, 3), np.bool_), {}
-    corner = _weld(triangles, owner)
+    corner = places_of(triangles.reshape(-1, 3) / _WELD, owner)
     edges = edges_of(corner)
     first, second = _meeting(np.repeat(np.arange(len(edges.sizes)), edges.sizes))
     first, second = edges.sides[first], edges.sides[second]
@@ -205,14 +204,6 @@ def _find_corners(triangles: Any, corner: Any, creases: Any, places: Any, corner
                 squares += places[place, i] ** 2 * (1.0 if i < 4 else 2.0)
             # All squared cosines between the creases that meet add up to count squared where they run along one line.
             corners[f, k] = count > 0 and (count == 1 or squares < (1 - _STRAIGHT) * count * count)
-
-
-def _weld(triangles: Floats, owner: Ints) -> Ints:
-    """``(n, 3)`` the same number for corners of one mesh that lie in one place."""
-    rows = np.empty((3 * len(triangles), 4), np.int64)
-    rows[:, :3] = np.round(triangles.reshape(-1, 3) / _WELD)
-    rows[:, 3] = np.repeat(owner, 3)
-    return number_rows(rows)[1].reshape(-1, 3)
 
 
 def _find_rims(triangles: Floats, owner: Ints, corner: Ints, free: Ints, corners: Bools) -> _Rims:

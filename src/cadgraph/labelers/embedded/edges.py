@@ -8,7 +8,7 @@ import numpy as np
 
 from cadgraph.geometry.kernels.distinct import number_rows
 from cadgraph.geometry.kernels.parallel import compiled
-from cadgraph.geometry.mesh.edges import edges_of
+from cadgraph.geometry.mesh.edges import edges_of, places_of
 from cadgraph.model.parts import Properties
 from cadgraph.model.scene import Floats, Ints, Scene, mesh_of_face
 
@@ -111,11 +111,11 @@ def _add_turns(
         if not angle > _FLAT:
             continue
         i, j, m = one % 3, (one + 1) % 3, (other + 2) % 3
-        long, above = 0.0, 0.0
+        long = 0.0
         for d in range(3):
             long += (triangles[a, j, d] - triangles[a, i, d]) ** 2
         # The third corner of the other face lies above the plane of this one: a hollow.
-        above += (triangles[b, m, 0] - triangles[a, 0, 0]) * ax
+        above = (triangles[b, m, 0] - triangles[a, 0, 0]) * ax
         above += (triangles[b, m, 1] - triangles[a, 0, 1]) * ay
         above += (triangles[b, m, 2] - triangles[a, 0, 2]) * az
         mesh = owner[a]
@@ -156,7 +156,4 @@ def _welded(triangles: Floats, owner: Ints, n: int) -> Ints:
     extent = np.maximum.reduceat(points, 3 * starts[filled]) - low[filled]
     size[filled] = np.linalg.norm(np.where(np.isfinite(extent), extent, 0), axis=1)
     mesh = np.repeat(owner, 3)
-    rows = np.empty((len(points), 4), np.int64)
-    rows[:, :3] = np.round((points - low[mesh]) / np.maximum(_WELD * size, 1e-9)[mesh, None])
-    rows[:, 3] = mesh
-    return number_rows(rows)[1].reshape(-1, 3)
+    return places_of((points - low[mesh]) / np.maximum(_WELD * size, 1e-9)[mesh, None], owner)

@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from cadgraph.geometry.kernels.frame import across
 from cadgraph.geometry.kernels.parallel import compiled, for_ranges, readable
 from cadgraph.geometry.mesh.pierce import Piercings
 from cadgraph.model.parts import Properties
@@ -220,15 +221,7 @@ def _sum(first: int, last: int, seen: _Points, frames: Frames, boxes: _Boxes, or
             continue
         ax, ay, az = frames.axis[m, 0], frames.axis[m, 1], frames.axis[m, 2]
         # Any direction across the axis: orders of symmetry don't depend on where the angle starts.
-        if abs(ax) <= abs(ay) and abs(ax) <= abs(az):
-            ux, uy, uz = 0.0, -az, ay
-        elif abs(ay) <= abs(az):
-            ux, uy, uz = az, 0.0, -ax
-        else:
-            ux, uy, uz = -ay, ax, 0.0
-        size = np.sqrt(ux * ux + uy * uy + uz * uz)
-        ux, uy, uz = ux / size, uy / size, uz / size
-        vx, vy, vz = ay * uz - az * uy, az * ux - ax * uz, ax * uy - ay * ux
+        (ux, uy, uz), (vx, vy, vz) = across(ax, ay, az)
         diagonal = np.sqrt(boxes.extents[m, 0] ** 2 + boxes.extents[m, 1] ** 2 + boxes.extents[m, 2] ** 2)
         end = max(np.sqrt(boxes.extents[m, 1] ** 2 + boxes.extents[m, 2] ** 2) / 2, 1e-9)
         zones = np.zeros(3)

@@ -104,10 +104,10 @@ _SLENDER, _REACH, _ALONE, _UNLIKE, _TALL = 0.8, 3.2, 0.75, 0.12, 1.6
 _BALL = "valve ball"
 _HOLDS = MappingProxyType(
     {
-        _BALL: MappingProxyType({"ball": 1.0, "check": 0.02, "plug": 0.02, "control": 0.2, "other": 0.002}),
+        _BALL: MappingProxyType({"ball": 1.0, "check": 0.02, "plug": 0.02, "control": 0.2}),
         "valve disc": MappingProxyType(
             {
-                "ball": 0.002, "gate": 0.02, "globe": 0.02, "butterfly": 0.7, "check": 0.1, "plug": 0.1,
+                "gate": 0.02, "globe": 0.02, "butterfly": 0.7, "check": 0.1, "plug": 0.1,
                 "diaphragm": 0.02, "relief": 0.05, "control": 0.1, "other": 0.3,
             }
         ),
