@@ -17,9 +17,10 @@ from cadplants.parts.access import platform, railing, stairs
 from cadplants.parts.electrical import cabinet, cable_tray, lamp, sign
 from cadplants.parts.enclosure import fence, pillar
 from cadplants.parts.gauge import pressure_gauge
-from cadplants.parts.meter import flow_meter, strainer
+from cadplants.parts.meter import flow_meter
 from cadplants.parts.piping import reducer, tee
 from cadplants.parts.pump import pump
+from cadplants.parts.strainer import strainer
 from cadplants.parts.structure import column, post
 from cadplants.parts.valve import VALVES
 from cadplants.parts.vessel import Nozzle, tank

@@ -12,9 +12,10 @@ from cadplants.lines.layout import Inline, Tap
 from cadplants.model.plant import Assembly, Device
 from cadplants.parts.brand import Brand
 from cadplants.parts.gauge import pressure_gauge
-from cadplants.parts.meter import flow_meter, strainer
+from cadplants.parts.meter import flow_meter
 from cadplants.parts.piping import eccentric_reducer, reducer, tee
 from cadplants.parts.primitive_devices import in_primitives
+from cadplants.parts.strainer import strainer
 from cadplants.parts.valve import VALVES
 from cadplants.styles.modeling_style import ModelingStyle
 
@@ -57,9 +58,9 @@ def meter_at(s: float, unit: str, dn: int) -> Inline:
     return Inline(s, partial(_meter, unit=unit, dn=dn), unit)
 
 
-def strainer_at(s: float, dn: int, roll: float = np.pi) -> Inline:
-    """A basket strainer with its middle at a chainage [m], its cover downward by default; no unit of its own."""
-    return Inline(s, partial(_strainer, dn=dn), roll=roll)
+def strainer_at(s: float, dn: int) -> Inline:
+    """A basket strainer with its middle at a chainage [m], its lid on top; no unit of its own."""
+    return Inline(s, partial(_strainer, dn=dn))
 
 
 def tee_at(s: float, junction: str, dn: int, branch: int, roll: float = 0.0) -> Inline:

@@ -15,7 +15,7 @@ from cadplants.solids.mesh_ops import Branch, Solid, about_x, branched, revolve,
 from cadplants.solids.transforms import IDENTITY, at
 from cadplants.styles.modeling_style import ModelingStyle
 
-__all__ = ["check_valve", "cover_solids", "gate_valve"]
+__all__ = ["check_valve", "gate_valve"]
 
 
 def _swollen(dn: int, length: float, bulge: float, flat: float) -> list[tuple[float, float]]:
@@ -76,8 +76,8 @@ def gate_valve(
 
 
 @cache
-def cover_solids(dn: int, length: float, style: ModelingStyle) -> tuple[Solid, Solid]:
-    """A flanged body along x with a bolted cover, and the cover about its own axis (swing checks, strainers)."""
+def _cover_solids(dn: int, length: float, style: ModelingStyle) -> tuple[Solid, Solid]:
+    """A flanged body along x with a bolted cover, and the cover about its own axis."""
     radius = PIPES[dn].radius
     bulge = 1.36 * radius + 0.007
     throat = min(0.88 * bulge, 0.7 * _neck_room(dn, length) + 0.004)
@@ -94,7 +94,7 @@ def cover_solids(dn: int, length: float, style: ModelingStyle) -> tuple[Solid, S
 def check_valve(unit: str, dn: int, style: ModelingStyle) -> Device:
     """A flanged swing check valve with a bolted cover; it lets flow pass along +x only."""
     length = FACE_TO_FACE["check"][dn]
-    body, cover = cover_solids(dn, length, style)
+    body, cover = _cover_solids(dn, length, style)
     pieces: list[Piece] = [
         (body, IDENTITY, "valve body", "valve"),
         (cover, at(length / 2), "valve bonnet", "valve"),

@@ -1,4 +1,4 @@
-"""Flow meters and strainers along x: inlet face at 0, head or cover towards +z."""
+"""The flow meter of the presets, along x: inlet face at 0, its transmitter towards +z."""
 
 from __future__ import annotations
 
@@ -7,16 +7,15 @@ from functools import cache
 import numpy as np
 
 from cadplants.model.plant import Assembly, Component, Device, Unit
-from cadplants.model.standards import FACE_TO_FACE, FLANGES, PIPES
+from cadplants.model.standards import FLANGES, PIPES
 from cadplants.parts.flange import face_shell, nut_room, plate_thickness
-from cadplants.parts.gate import cover_solids
 from cadplants.parts.valve_body import bore_of, flipped
 from cadplants.solids.mesh_ops import Branch, Solid, about_x, branched, merge, moved, revolve, stack, weld
 from cadplants.solids.polygon import circle
 from cadplants.solids.transforms import at
 from cadplants.styles.modeling_style import ModelingStyle
 
-__all__ = ["flow_meter", "strainer"]
+__all__ = ["flow_meter"]
 
 
 def _meter_length(dn: int) -> float:
@@ -71,15 +70,3 @@ def flow_meter(unit: str, dn: int, style: ModelingStyle) -> Device:
         Component(housing, group, "transmitter", style.color("valve"), stand, unit),
     )
     return Device(Assembly(both, ((0, 1),), (Unit(unit, "gauge", "flow meter"),)), length)
-
-
-def strainer(dn: int, style: ModelingStyle) -> Device:
-    """A flanged basket strainer with a bolted cover, as long as a globe valve (ASME B16.10)."""
-    length = FACE_TO_FACE["globe"][dn]
-    body, cover = cover_solids(dn, length, style)
-    group, color = "Pipe assembly", style.color("valve")
-    parts = (
-        Component(body, group, "strainer", color),
-        Component(cover, group, "strainer", color, at(length / 2)),
-    )
-    return Device(Assembly(parts, ((0, 1),)), length)
