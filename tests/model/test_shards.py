@@ -128,8 +128,7 @@ def test_the_setting_of_the_graph_decides(whole, tmp_path):
 
 
 def test_shards_hold_rows_in_order_over_their_borders(whole):
-    document = whole.to_json()
-    index, shards = cut(document, above=1, rows=2)
+    index, shards = cut(whole.document.content(), above=1, rows=2)
     packed = dict(shards)
     runs = {(run["key"], run["kind"]): run for run in index["shards"]["runs"]}
     listed = runs["nodes", "part"]["shards"]
@@ -137,13 +136,13 @@ def test_shards_hold_rows_in_order_over_their_borders(whole):
         ("part-0", "part-1"), ("part-2", "part-3"), ("part-4", "part-4")
     ]  # fmt: skip
     rows = [json.loads(line) for s in listed for line in gzip.decompress(packed[s["file"]]).splitlines()]
-    assert rows == [node for node in document["nodes"] if node["layer"] == "part"]
+    assert rows == [node for node in whole.to_json()["nodes"] if node["layer"] == "part"]
 
 
 def test_parts_in_no_order_are_not_cut(whole):
-    document = whole.to_json()
-    parts = [node for node in document["nodes"] if node["layer"] == "part"]
-    rest = [node for node in document["nodes"] if node["layer"] != "part"]
+    document = whole.document.content()
+    parts = [node for node in document["nodes"] if node.layer == "part"]
+    rest = [node for node in document["nodes"] if node.layer != "part"]
     assert cut({**document, "nodes": [*rest, *parts[::-1]]}, above=1) is None
 
 

@@ -90,7 +90,9 @@ def write_baked(
     )
     baked.write()
     roots = {prim.name for prim in layer.rootPrims}
-    held = targets_of_parts(scene, graph, paths, tuple(authorable_path(anchor) for anchor in anchors))
+    carried = tuple(authorable_path(anchor) for anchor in anchors)
+    shown = carried if anchors is paths else tuple(authorable_path(path) for path in paths)
+    held = targets_of_parts(scene, graph, shown, carried)
     add_structure(layer, unused("CadGraph", roots), graph, held)
     written = export_layer(layer, target)
     return written, (*notes, *_told(baked), *files.notes())

@@ -98,12 +98,13 @@ def write_semantics(scene: Scene, graph: SceneGraph, source_path: str | Path, pa
         anchors = targets = prim_paths(scene)
         write_geometry(scene, below)
     authorable = tuple(authorable_path(anchor) for anchor in anchors)
+    shown = authorable if anchors is targets else tuple(authorable_path(target) for target in targets)
     layer = Sdf.Layer.CreateAnonymous(".usda")
     roots = _restate(layer, below, target, scene)
     roots.update({anchor.split("/", 2)[1] for anchor, path in zip(anchors, authorable, strict=True) if path})
     with Sdf.ChangeBlock():
         _label_anchors(layer, authorable, scene, graph)
-        add_structure(layer, unused("CadGraph", roots), graph, targets_of_parts(scene, graph, targets, authorable))
+        add_structure(layer, unused("CadGraph", roots), graph, targets_of_parts(scene, graph, shown, authorable))
     return export_layer(layer, target)
 
 
@@ -267,13 +268,20 @@ def _label_anchors(layer: Any, anchors: Sequence[Any], scene: Scene, graph: Scen
 
 
 def targets_of_parts(
-    scene: Scene, graph: SceneGraph, targets: Sequence[str], anchors: Sequence[Any]
+    scene: Scene, graph: SceneGraph, targets: Sequence[Any], anchors: Sequence[Any]
 ) -> dict[str, list[Any]]:
-    """The prims of each part: its meshes themselves (in an instance too), or what carries them where they are none."""
+    """The prims of each part: its meshes themselves (in an instance too), or what carries them where they are none.
+
+    Args:
+        scene: that the graph is of.
+        graph: whose parts they are.
+        targets: the path of each mesh, None where USD can't hold it.
+        anchors: likewise of what carries it.
+    """
     index = {path: i for i, path in enumerate(scene.paths)}
     result: dict[str, list[Any]] = {}
     for part in graph.of_layer(Part):
-        found = (authorable_path(targets[i]) or anchors[i] for i in (index[mesh] for mesh in part.meshes))
+        found = (targets[i] or anchors[i] for i in (index[mesh] for mesh in part.meshes))
         result[part.id] = [path for path in found if path is not None]
     return result
 

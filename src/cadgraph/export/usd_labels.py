@@ -162,6 +162,7 @@ class Stamps:
         self._layer = layer
         self._models = Sdf.Layer.CreateAnonymous(".usda")
         self._path_of: dict[Said, Any] = {}
+        self._above = {Sdf.Path.absoluteRootPath}  # what is there to hold prims
 
     def label(self, path: Any, said: Said, trace: Mapping[str, Any]) -> None:
         """Labels the prim at a path in all taxonomies of meshes; it is made, as an over, where it is not there."""
@@ -169,7 +170,10 @@ class Stamps:
             # A copy would take the place of all that stands there and below.
             label_prim(self._layer.GetPrimAtPath(path), said, trace)
             return
-        Sdf.CreatePrimInLayer(self._layer, path)
+        above = path.GetParentPath()
+        if above not in self._above:
+            Sdf.CreatePrimInLayer(self._layer, above)
+            self._above.add(above)
         Sdf.CopySpec(self._models, self._model(said), self._layer, path)
         for taxonomy in _TRACED if trace else ():
             attribute = self._layer.GetAttributeAtPath(path.AppendProperty(f"semantics:labels:{taxonomy}"))

@@ -53,11 +53,6 @@ def validated(data: Mapping[str, Any], where: str) -> GraphDocument:
         check_document(document)
     except ValidationError as error:
         raise FormatError(f"{where}: {what_is_wrong(error, data)}; build the graph anew") from None
-    except TypeError as error:
-        # Labels and guesses take their fields as arguments: "Label.__init__() missing ... argument: 'group'".
-        kind, _, lacking = str(error).partition(".__init__() missing ")
-        said = f"a {kind.lower()} lacks {lacking.partition(': ')[2]}" if lacking else str(error)
-        raise FormatError(f"{where}: {said:.{_MOST_TOLD}}; build the graph anew") from None
     except FormatError as error:
         # It may name what the file holds, which may be of any length.
         raise FormatError(f"{where}: {error!s:.{_MOST_TOLD}}; build the graph anew") from None

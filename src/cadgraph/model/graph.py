@@ -6,7 +6,6 @@ Nodes and edges load as they are with ``networkx.node_link_graph(data, edges="ed
 from __future__ import annotations
 
 import hashlib
-import json
 import reprlib
 from collections import Counter, deque
 from collections.abc import Mapping
@@ -17,7 +16,7 @@ from typing import TYPE_CHECKING, Any, cast, get_args, overload
 from cadgraph._io.atomic import write_atomically
 from cadgraph._io.depth import MOST_LEVELS, is_too_deep
 from cadgraph._io.garbage import collector_paused
-from cadgraph._io.json_rows import write_json_rows
+from cadgraph._io.json_rows import read_json, write_json_rows
 from cadgraph._io.limits import GRAPH, decoded
 from cadgraph._io.manifest import GRAPH_FILE, read_checked
 from cadgraph._io.results import settle_if_free
@@ -26,8 +25,8 @@ from cadgraph.errors import FormatError, UnknownNode
 from cadgraph.model.content import Content, ShardedContent, WholeContent, validated
 from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.pipework import Direction, Pipework, check_direction
-from cadgraph.model.record import Record
 from cadgraph.model.records import (
+    ROWS_OF,
     AnyEdge,
     AnyNode,
     Cluster,
@@ -54,7 +53,6 @@ __all__ = ["SceneGraph"]
 
 FORMAT = "cadgraph"
 VERSION = 1
-_ROWS = ("nodes", "edges", "joints", "stated", "diagnostics")
 
 Functional = Unit | Junction | Terminal
 
@@ -415,7 +413,7 @@ class SceneGraph:
         whole = target.suffix == ".json"
         target = target if whole else target / GRAPH_FILE
         above = _shard_above(self.config) if shard_above is None else shard_above
-        content = self._rows_one_by_one() if whole or not self._may_be_cut(above) else self.to_json()
+        content = self.document.content()
         parted = None if whole or not self._may_be_cut(above) else cut(content, above)
         with one_of_results(target):
             if not whole:
@@ -424,26 +422,15 @@ class SceneGraph:
                 content, shards = parted
                 for name, packed in shards:
                     write_atomically(target.parent / FOLDER / name, packed)
-            write_json_rows(target, content, rows=_ROWS)
+            write_json_rows(target, content, rows=ROWS_OF)
         return target
 
     def _may_be_cut(self, above: int) -> bool:
         """Whether so many rows of any kind are there that they go into shards."""
         document = self.document
         kinds = Counter(node.layer for node in document.nodes) + Counter(edge.kind for edge in document.edges)
-        others = (len(getattr(document, key)) for key in _ROWS if key not in ("nodes", "edges"))
+        others = (len(getattr(document, key)) for key in ROWS_OF if key not in ("nodes", "edges"))
         return max((*kinds.values(), *others), default=0) > above
-
-    def _rows_one_by_one(self) -> dict[str, Any]:
-        """The content of ``graph.json``, whose rows become plain values only when their turn comes: once each."""
-        document = self.document
-        rows: dict[str, tuple[Record, ...]] = {key: getattr(document, key) for key in _ROWS}
-        # One row of each is enough for what stands where.
-        few = document.model_copy(update={key: some[:1] for key, some in rows.items()}).model_dump(mode="json")
-        return {
-            key: (row.model_dump(mode="json") for row in rows[key]) if rows.get(key) else value
-            for key, value in few.items()
-        }
 
     @classmethod
     def load(cls, path: str | Path) -> SceneGraph:
@@ -460,7 +447,7 @@ class SceneGraph:
         content = read_checked(target, GRAPH, FormatError, remedy)
         text = decoded(content, target, FormatError, remedy)
         try:
-            data = json.loads(text)
+            data = read_json(text)
         except (ValueError, RecursionError) as error:
             raise FormatError(f"{target}: not JSON ({error}); give a folder that 'cadgraph build' wrote") from error
         if is_cut(data):

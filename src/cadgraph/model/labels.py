@@ -6,15 +6,15 @@ The kinds of evidence are told apart by the label's ``source``, which stands in 
 from __future__ import annotations
 
 import warnings
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any, ClassVar, Literal
 
 from pydantic import (
     Field,
     SerializeAsAny,
     ValidationError,
+    ValidationInfo,
     field_validator,
-    model_validator,
 )
 
 from cadgraph.model.record import Record
@@ -41,6 +41,14 @@ def _absent(**limits: Any) -> Any:
     return Field(default=None, exclude_if=lambda value: value is None, **limits)
 
 
+def _checked_as_fields(init: Callable[..., None]) -> None:
+    """Has pydantic check the fields of a record that it reads by themselves, where it would call ``__init__``.
+
+    Half a million guesses of a large graph are read twice as fast. ``RootModel`` of pydantic does the same.
+    """
+    init.__pydantic_base_init__ = True  # type: ignore[attr-defined]
+
+
 class Guess(Record):
     """What a part may be.
 
@@ -56,6 +64,8 @@ class Guess(Record):
 
     def __init__(self, group: str, name: str | None = None, confidence: float = 0.0, **unknown: Any) -> None:
         super().__init__(**{"group": group, "name": name, "confidence": confidence, **unknown})
+
+    _checked_as_fields(__init__)
 
     @property
     def said(self) -> tuple[str, str | None]:
@@ -319,13 +329,12 @@ class Label(Record):
         values = {"group": group, "name": name, "confidence": confidence, "source": source, "guesses": guesses}
         super().__init__(**values, **{"evidence": {} if evidence is None else evidence, **unknown})
 
-    @model_validator(mode="before")
+    _checked_as_fields(__init__)
+
+    @field_validator("evidence", mode="before")
     @classmethod
-    def _type_evidence(cls, values: Any) -> Any:
-        plain = values.get("evidence") if isinstance(values, Mapping) else None
-        if not isinstance(plain, Mapping):
-            return values
-        return {**values, "evidence": typed_evidence(values.get("source"), plain)}
+    def _type_evidence(cls, value: Any, before: ValidationInfo) -> Any:
+        return typed_evidence(before.data.get("source"), value) if isinstance(value, Mapping) else value
 
     @property
     def said(self) -> tuple[str, str | None]:

@@ -13,7 +13,7 @@ __all__ = ["Record"]
 class Record(BaseModel):
     """A frozen record that keeps keys it doesn't know."""
 
-    model_config = ConfigDict(frozen=True, extra="allow", allow_inf_nan=False)
+    model_config = ConfigDict(frozen=True, extra="allow", allow_inf_nan=False, ser_json_inf_nan="constants")
 
     def model_post_init(self, context: Any, /) -> None:
         """Gives up what pydantic notes of each record beside its values: it takes as much memory as they do.

@@ -16,6 +16,7 @@ from cadgraph.model.labels import Guess, Label
 from cadgraph.model.record import Record
 
 __all__ = [
+    "ROWS_OF",
     "Access",
     "Adjacent",
     "Affordance",
@@ -442,6 +443,17 @@ class GraphDocument(Record):
         description="what the source itself says is joined to what; absent where it says nothing",
     )
     diagnostics: tuple[Diagnostic, ...] = ()
+
+    def content(self) -> dict[str, Any]:
+        """What stands on disk: plain values, but for the rows, which stay records."""
+        rows: dict[str, tuple[Record, ...]] = {key: getattr(self, key) for key in ROWS_OF}
+        # One row of each is enough for what stands where.
+        few = self.model_copy(update={key: some[:1] for key, some in rows.items()}).model_dump(mode="json")
+        return {key: rows.get(key) or value for key, value in few.items()}
+
+
+ROWS_OF = ("nodes", "edges", "joints", "stated", "diagnostics")
+"""What of a document is many rows."""
 
 
 def document_schema() -> dict[str, Any]:

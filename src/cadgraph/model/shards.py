@@ -14,21 +14,24 @@ from __future__ import annotations
 import bisect
 import gzip
 import hashlib
-import json
 import re
 import zlib
-from collections import Counter, OrderedDict
+from collections import Counter, OrderedDict, deque
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
 from itertools import groupby
+from operator import attrgetter
 from pathlib import Path
 from typing import Any
 
 from pydantic import Field, ValidationError
 
+from cadgraph._io.json_rows import json_row, read_json
 from cadgraph._io.staging import READY
 from cadgraph._io.text import natural_key
 from cadgraph.errors import FormatError
 from cadgraph.model.record import Record
+from cadgraph.model.records import ROWS_OF
 
 __all__ = ["ABOVE", "FOLDER", "ROWS", "SHARDED", "Index", "Run", "Shard", "Shards", "cut", "is_cut", "sweep_shards"]
 
@@ -41,12 +44,11 @@ ROWS = 5_000
 SHARDED = 2
 """``version`` of a ``graph.json`` whose rows are in shards; one that is whole has 1."""
 
-_KEYS = ("nodes", "edges", "joints", "stated", "diagnostics")
-_ENCODER = json.JSONEncoder(ensure_ascii=False, allow_nan=False)
 _CUT = ("part", "contains", "adjacent")  # kinds of nodes and edges that grow with the number of meshes
 _KIND_OF = {"nodes": "layer", "edges": "kind"}  # the key that says of what kind a row is
 _MOST = 1 << 29  # [bytes] of a shard as text
 _KEPT = 8  # shards that are kept in memory
+_AT_ONCE = 2  # shards that are gzipped at a time
 _NAME = re.compile(r"[a-z_-]{1,40}-[0-9]{5,7}-[0-9a-f]{16}\.jsonl\.gz")
 
 
@@ -112,7 +114,7 @@ def cut(
     """Cuts the content of a graph into an index and shards.
 
     Args:
-        document: the content of a ``graph.json``, as plain values.
+        document: as :meth:`GraphDocument.content` gives it.
         above: kinds of more rows than that are cut.
         rows: of a shard.
 
@@ -122,22 +124,22 @@ def cut(
     """
     runs: list[tuple[str, str, int, list[Any]]] = []
     whole: dict[str, list[Any]] = {}
-    for key in _KEYS:
+    for key in ROWS_OF:
         whole[key] = []
         by = _KIND_OF.get(key)
-        for kind, group in groupby(document.get(key, ()), key=lambda row: str(row[by]) if by else ""):
+        for kind, group in groupby(document.get(key, ()), key=attrgetter(by) if by else lambda _: ""):
             members = list(group)
             if len(members) > above and (by is None or kind in _CUT):
                 runs.append((key, kind, len(whole[key]), members))
             else:
                 whole[key] += members
     parts = [members for key, kind, _, members in runs if (key, kind) == ("nodes", "part")]
-    if not runs or len(parts) > 1 or (parts and not _ascending([row["id"] for row in parts[0]])):
+    if not runs or len(parts) > 1 or (parts and not _ascending([row.id for row in parts[0]])):
         return None
     for members in parts:
         runs += [("lookup", "mesh", 0, _meshes(members)), ("lookup", "around", 0, _around(document, members))]
     listed: list[dict[str, Any]] = []
-    index = {key: value for key, value in document.items() if key not in _KEYS}
+    index = {key: value for key, value in document.items() if key not in ROWS_OF}
     index |= {"version": SHARDED, "shards": {"labels": _labels(document), "runs": listed}}
     index |= {key: rows_left for key, rows_left in whole.items() if rows_left or key in ("nodes", "edges")}
 
@@ -147,22 +149,38 @@ def cut(
             listed.append(run)
             for number, start in enumerate(range(0, len(members), rows)):
                 some = members[start : start + rows]
-                text = b"".join(_line(row) for row in some)
+                text = b"".join(json_row(row) + b"\n" for row in some)
                 digest = hashlib.sha256(text).hexdigest()
                 name = f"{'-'.join(filter(None, (key, kind)))}-{number:05d}-{digest[:16]}.jsonl.gz"
-                first, last = _called(key, kind, some[0]), _called(key, kind, some[-1])
+                first, last = (_name_of(key, row) for row in (some[0], some[-1]))
                 run["shards"].append({"file": name, "rows": len(some), "sha256": digest, "first": first, "last": last})
-                yield name, gzip.compress(text, 6, mtime=0)
+                yield name, text
 
-    return index, shards()
+    return index, _packed(shards())
 
 
-def _line(row: Any) -> bytes:
-    # As in graph.json: a lone surrogate has no UTF-8.
-    return (_ENCODER.encode(row) + "\n").encode("utf-8", "backslashreplace")
+def _packed(shards: Iterable[tuple[str, bytes]]) -> Iterator[tuple[str, bytes]]:
+    """Shards gzipped, a few at a time, while those that follow are made: that takes longer than all else of them."""
+    with ThreadPoolExecutor(_AT_ONCE) as pool:
+        waiting: deque[tuple[str, Future[bytes]]] = deque()
+        for name, text in shards:
+            waiting.append((name, pool.submit(gzip.compress, text, 6, mtime=0)))
+            if len(waiting) > _AT_ONCE:
+                ready, packed = waiting.popleft()
+                yield ready, packed.result()
+        for ready, packed in waiting:
+            yield ready, packed.result()
+
+
+def _name_of(key: str, row: Any) -> str:
+    """What a row that is not read yet is looked up by."""
+    if key == "lookup":
+        return str(row[0])
+    return str(row.id) if key == "nodes" else ""
 
 
 def _called(key: str, kind: str, row: Any) -> str:
+    """Likewise one that was read."""
     if key == "lookup":
         return str(row[0])
     return str(row["id"]) if key == "nodes" else ""
@@ -173,29 +191,29 @@ def _ascending(ids: Sequence[str]) -> bool:
     return all(one < other for one, other in zip(keys, keys[1:], strict=False))
 
 
-def _meshes(parts: Iterable[Mapping[str, Any]]) -> list[list[str]]:
-    return sorted([mesh, part["id"]] for part in parts for mesh in part["meshes"])
+def _meshes(parts: Iterable[Any]) -> list[list[str]]:
+    return sorted([mesh, part.id] for part in parts for mesh in part.meshes)
 
 
-def _around(document: Mapping[str, Any], parts: Iterable[Mapping[str, Any]]) -> list[list[Any]]:
+def _around(document: Mapping[str, Any], parts: Iterable[Any]) -> list[list[Any]]:
     """Of each part: its id, its cluster, its unit, and the parts that it touches in the order of the file."""
-    ids = [str(part["id"]) for part in parts]
+    ids = [part.id for part in parts]
     touching: dict[str, list[str]] = {name: [] for name in ids}
     home: dict[str, str] = {}
-    layers = {str(node["id"]): node["layer"] for node in document["nodes"] if node["layer"] != "part"}
+    layers = {node.id: node.layer for node in document["nodes"] if node.layer != "part"}
     for edge in document["edges"]:
-        if edge["kind"] == "adjacent":
-            touching[edge["source"]].append(edge["target"])
-            touching[edge["target"]].append(edge["source"])
-        elif edge["kind"] == "contains" and layers.get(edge["source"]) == "cluster":
-            home[edge["target"]] = edge["source"]
-    unit = {part: node["id"] for node in document["nodes"] if node["layer"] == "unit" for part in node["parts"]}
+        if edge.kind == "adjacent":
+            touching[edge.source].append(edge.target)
+            touching[edge.target].append(edge.source)
+        elif edge.kind == "contains" and layers.get(edge.source) == "cluster":
+            home[edge.target] = edge.source
+    unit = {part: node.id for node in document["nodes"] if node.layer == "unit" for part in node.parts}
     return [[name, home.get(name), unit.get(name), sorted(touching[name], key=natural_key)] for name in ids]
 
 
 def _labels(document: Mapping[str, Any]) -> list[list[Any]]:
-    labels = (node.get("label") for node in document["nodes"] if node["layer"] == "part")
-    counted = Counter((label["group"], label["name"]) for label in labels if label is not None)
+    labels = (node.label for node in document["nodes"] if node.layer == "part")
+    counted = Counter(label.said for label in labels if label is not None)
     return [
         [group, name, n]
         for (group, name), n in sorted(counted.items(), key=lambda item: (item[0][0], item[0][1] or ""))
@@ -315,7 +333,7 @@ class Shards:
 
     def _row(self, line: bytes) -> Any:
         try:
-            return json.loads(line)
+            return read_json(line)
         except (ValueError, RecursionError) as error:
             raise FormatError(f"{self._folder / FOLDER}: a row is not JSON ({error}); build the graph anew") from None
 

@@ -8,7 +8,7 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from cadgraph._io.text import natural_key
+from cadgraph._io.text import natural_order
 from cadgraph._io.validation_messages import expectation
 from cadgraph.errors import FormatError
 from cadgraph.model.records import (
@@ -35,19 +35,22 @@ __all__ = ["check_document", "check_names", "what_is_wrong"]
 
 _MOST_SQUARES = 1 << 24  # of a floor; a short list of runs may claim any number
 
-# Which layers an edge may join: (source, target).
-_JOINS: dict[str, tuple[tuple[tuple[type[Any], ...], tuple[type[Any], ...]], ...]] = {
-    "contains": (
-        ((Site,), (Cluster, Part, Unit, Junction, Terminal, System)),
-        ((Cluster, Unit), (Part,)),
-        ((System,), (Unit, Junction, Terminal)),
-        ((Place,), (Unit,)),
-    ),
-    "adjacent": (((Part,), (Part,)),),
-    "connected": (((Unit, Junction, Terminal), (Unit, Junction, Terminal)),),
-    "related": (((Unit,), (Unit,)),),
-    "reached_from": (((Place,), (Place,)),),
+_MAY_JOIN = {
+    (kind, above, below)
+    for kind, sources, targets in (
+        ("contains", (Site,), (Cluster, Part, Unit, Junction, Terminal, System)),
+        ("contains", (Cluster, Unit), (Part,)),
+        ("contains", (System,), (Unit, Junction, Terminal)),
+        ("contains", (Place,), (Unit,)),
+        ("adjacent", (Part,), (Part,)),
+        ("connected", (Unit, Junction, Terminal), (Unit, Junction, Terminal)),
+        ("related", (Unit,), (Unit,)),
+        ("reached_from", (Place,), (Place,)),
+    )
+    for above in sources
+    for below in targets
 }
+"""Kinds of edges with the layers that they may join, source and target."""
 
 
 def check_names(document: GraphDocument) -> dict[str, Node]:
@@ -96,34 +99,35 @@ def check_document(document: GraphDocument) -> None:
 def _check_edges(edges: Iterable[Edge], nodes: Mapping[str, Node]) -> None:
     seen: set[tuple[str, str, str]] = set()
     home: dict[tuple[str, str], str] = {}
+    names = list(nodes)
+    place = {names[k]: place for place, k in enumerate(natural_order(names))}
     for edge in edges:
         source, target = edge.source, edge.target
-        here = f"the {edge.kind!r} edge from {source!r} to {target!r}"
         ends = nodes[source], nodes[target]
-        if not any(isinstance(ends[0], above) and isinstance(ends[1], below) for above, below in _JOINS[edge.kind]):
-            raise FormatError(f"{here} joins a {ends[0].layer} with a {ends[1].layer}, which it can't")
+        if (edge.kind, type(ends[0]), type(ends[1])) not in _MAY_JOIN:
+            raise FormatError(f"{_in_words(edge)} joins a {ends[0].layer} with a {ends[1].layer}, which it can't")
         if isinstance(edge, Connected):
-            _check_known(edge.via, Part, nodes, here)
+            _check_known(edge.via, Part, nodes, _in_words(edge))
             continue
         if source == target:
-            raise FormatError(f"{here} ends where it starts")
+            raise FormatError(f"{_in_words(edge)} ends where it starts")
         # A relation has no direction; two connections may join the same two units, by two pipes.
         first, last = sorted((source, target)) if isinstance(edge, Related) else (source, target)
         key = (edge.kind, first, last)
         if key in seen:
-            raise FormatError(f"{here} is there twice")
+            raise FormatError(f"{_in_words(edge)} is there twice")
         seen.add(key)
         if isinstance(edge, Adjacent):
-            _check_contact(edge, here)
+            if place[source] > place[target]:
+                raise FormatError(f"{_in_words(edge)} is the wrong way round: its source must come before its target")
         elif isinstance(edge, Contains) and not isinstance(ends[0], Site):
             other = home.setdefault((ends[0].layer, target), source)
             if other != source:
                 raise FormatError(f"{target!r} is in two nodes of layer {ends[0].layer!r}: {other!r} and {source!r}")
 
 
-def _check_contact(edge: Adjacent, here: str) -> None:
-    if natural_key(edge.source) > natural_key(edge.target):
-        raise FormatError(f"{here} is the wrong way round: its source must come before its target")
+def _in_words(edge: Edge) -> str:
+    return f"the {edge.kind!r} edge from {edge.source!r} to {edge.target!r}"
 
 
 def _check_nodes(listed: Iterable[Node], nodes: Mapping[str, Node]) -> None:
