@@ -125,6 +125,15 @@ class Attachments:
     made: Mapping[int, Offer]
     refused: Mapping[int, Offer]
 
+    def joined_rows(self) -> set[int]:
+        """Rows of the ends that join something; one in a sleeve doesn't."""
+        return (
+            {row for facing in self.facings for row in (facing.first, facing.second)}
+            | {row for row, _ in self.doubled}
+            | {tapped.row for tapped in self.taps if not tapped.tap.sleeve}
+            | {mount.row for mount in self.mounts}
+        )
+
 
 def attach_lines(
     parts: Parts,

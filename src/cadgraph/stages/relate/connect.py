@@ -13,7 +13,7 @@ from cadgraph.model.labels import Label
 from cadgraph.model.parts import Joint, Network, Parts, UnitParts
 from cadgraph.stages.relate.algorithm import find_units, number_units
 from cadgraph.stages.relate.attach import flat_contacts
-from cadgraph.stages.relate.contract import simplify
+from cadgraph.stages.relate.contract import Closed, simplify
 from cadgraph.stages.relate.cover import Cover, cover_of
 from cadgraph.stages.relate.edit_flow import set_flow, unmet_flow
 from cadgraph.stages.relate.edit_joints import bridge_solids, joint_of_solids, unmet_joints
@@ -25,6 +25,7 @@ from cadgraph.stages.relate.line import is_disc
 from cadgraph.stages.relate.network import Drawing, draw_network
 from cadgraph.stages.relate.offer import Offer
 from cadgraph.stages.relate.piping import Group, Piping, RelateInput
+from cadgraph.stages.relate.pocket import closed_ends
 from cadgraph.stages.relate.record import record_joints
 from cadgraph.stages.relate.recover import recover_units
 from cadgraph.stages.relate.relabel import relabel_parts
@@ -187,8 +188,13 @@ def _contract(piping: Piping, units: Sequence[UnitParts], drawing: Drawing, name
     """The runs between units, junctions and terminals."""
     given = piping.given
     tapped = {number for number, unit in enumerate(units) if unit.unit_type in ("gauge", "valve")}
-    covers = frozenset(part for part, line in piping.lines.items() if _is_cover(line, names[part]))
-    net = simplify(drawing, tapped, covers, len(units), given.config.relate.leg)
+    strainers = [part for part in piping.lines if names[part] == "strainer"]
+    lids = [part for part in piping.lines if names[part] in _CLOSED]
+    closed = Closed(
+        covers=frozenset(part for part, line in piping.lines.items() if _is_cover(line, names[part])),
+        pockets=closed_ends(piping.joints, frozenset(strainers), frozenset(lids)),
+    )
+    net = simplify(drawing, tapped, closed, len(units), given.config.relate.leg)
     carried = {*piping.lines, *piping.lineless, *_owners(units), *piping.jackets}
     return make_network(
         net,

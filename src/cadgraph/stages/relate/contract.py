@@ -11,7 +11,7 @@ from cadgraph.model.scene import Floats
 from cadgraph.stages.relate.network import Drawing
 from cadgraph.stages.relate.span import Net, Span
 
-__all__ = ["simplify"]
+__all__ = ["Closed", "simplify"]
 
 # Two spans between the same nodes are one thing there twice (a pipe within its flange or coupling) where both are
 # shorter than this many of their diameters, or this much [m], and nowhere farther apart than half a diameter.
@@ -26,13 +26,26 @@ _NARROW = 0.7
 _WITHIN = 0.3
 
 
-def simplify(drawing: Drawing, gauges: Collection[int], covers: frozenset[int], n_units: int, leg: float) -> Net:
+@dataclass(frozen=True)
+class Closed:
+    """Where no run ends, although a line does.
+
+    Args:
+        covers: lids that close a fitting of their own, as a strainer's lid does.
+        pockets: rows of ends at which a fitting is closed in itself, as a strainer's pot.
+    """
+
+    covers: frozenset[int]
+    pockets: frozenset[int]
+
+
+def simplify(drawing: Drawing, gauges: Collection[int], closed: Closed, n_units: int, leg: float) -> Net:
     """Joins spans to runs between units, junctions and terminals.
 
     Args:
         drawing: the network as drawn; it stays as it is.
         gauges: numbers of the units that may stand in a run although they only sit on a tap of it.
-        covers: parts that close a fitting of their own, as a strainer's lid does; no run ends there.
+        closed: where no run ends.
         n_units: number of units, which are the first nodes.
         leg: greatest length between a tap and its gauge [m].
 
@@ -43,9 +56,9 @@ def simplify(drawing: Drawing, gauges: Collection[int], covers: frozenset[int], 
     units = range(n_units)
     changed = True
     while changed:
-        changed = _merge_parallel(net) | _drop_stubs(net, n_units, drawing, covers)
+        changed = _merge_parallel(net) | _drop_stubs(net, n_units, drawing, closed)
         net.dissolve(units)
-        changed |= _merge_parallel(net) | _drop_stubs(net, n_units, drawing, covers)
+        changed |= _merge_parallel(net) | _drop_stubs(net, n_units, drawing, closed)
     net.dissolve(units)
     for gauge in sorted(gauges):
         _fold(net, gauge, drawing.taps, gauges, n_units, leg)
@@ -113,23 +126,25 @@ def _middle(points: Floats) -> Floats:
     return np.array([np.interp(walked[-1] / 2, walked, points[:, c]) for c in range(3)])
 
 
-def _drop_stubs(net: Net, n_units: int, drawing: Drawing, covers: frozenset[int]) -> bool:
+def _drop_stubs(net: Net, n_units: int, drawing: Drawing, closed: Closed) -> bool:
     """Drops what ends freely beside a joint of two others without being pipe."""
     dropped = False
     for number, span in sorted(net.spans.items()):
         for tip, foot in ((span.a, span.b), (span.b, span.a)):
             free = number in net.spans and tip >= n_units and net.degree(tip) == 1 and tip not in drawing.solids
-            if free and net.degree(foot) >= 3 and _is_stub(net, span, foot, covers):
+            if free and net.degree(foot) >= 3 and _is_stub(net, span, (tip, foot), drawing, closed):
                 net.remove(number)
                 dropped = True
     return dropped
 
 
-def _is_stub(net: Net, span: Span, foot: int, covers: frozenset[int]) -> bool:
-    """Whether a span that hangs at a joint is no pipe: a flange or gasket, or the lid of a fitting."""
+def _is_stub(net: Net, span: Span, nodes: tuple[int, int], drawing: Drawing, closed: Closed) -> bool:
+    """Whether a span that hangs at a joint is no pipe: a flange or gasket, a fitting's lid or pot. Nodes: tip, foot."""
+    tip, foot = nodes
     wide = max(_width(net.spans[other]) for other in net.at[foot])
-    pocket = not covers.isdisjoint(span.via) and span.length <= max(_STUB, _POCKET * wide)
-    return pocket or (not span.pieces and span.length <= _STUB)
+    rows = drawing.ends.get(tip, ())
+    pocket = not closed.covers.isdisjoint(span.via) or (bool(rows) and closed.pockets.issuperset(rows))
+    return (pocket and span.length <= max(_STUB, _POCKET * wide)) or (not span.pieces and span.length <= _STUB)
 
 
 @dataclass(frozen=True)

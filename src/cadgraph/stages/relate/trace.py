@@ -14,7 +14,7 @@ from cadgraph.geometry.shape.analysis import shapes_of
 from cadgraph.model.derived import store_of
 from cadgraph.model.parts import Bools, Contacts, Parts
 from cadgraph.model.scene import Floats
-from cadgraph.stages.relate.attach import Attachments, facings_of
+from cadgraph.stages.relate.attach import facings_of
 from cadgraph.stages.relate.decide import decide_joints
 from cadgraph.stages.relate.joint import Ends, find_tap, gather_ends
 from cadgraph.stages.relate.line import is_disc, is_plain_tube, is_steady
@@ -428,7 +428,7 @@ def drop_shapeless(piping: Piping) -> Piping:
 
 def _shapeless(piping: Piping) -> set[int]:
     """Parts with a line of their own that joins nothing, at which two or more loose ends of other lines lie."""
-    joined, of_part = _joined_ends(piping.joints), piping.joints.ends.of_part
+    joined, of_part = piping.joints.joined_rows(), piping.joints.ends.of_part
     loose = {part: [row for row in rows if row not in joined] for part, rows in of_part.items()}
     idle = {part for part, rows in loose.items() if len(rows) == len(of_part[part])}
     busy = _without(loose, idle)
@@ -439,16 +439,6 @@ def _count_at(piping: Piping, part: int, loose: Mapping[int, Sequence[int]]) -> 
     """How many loose ends of the lines near a part lie at it."""
     rows = [row for other in piping.given.neighbors.get(part, ()) for row in loose.get(other, ())]
     return sum(_lies_at(piping, row, part) for row in rows)
-
-
-def _joined_ends(found: Attachments) -> set[int]:
-    """Rows of the ends that join something; one in a sleeve doesn't."""
-    return (
-        {row for facing in found.facings for row in (facing.first, facing.second)}
-        | {row for row, _ in found.doubled}
-        | {tapped.row for tapped in found.taps if not tapped.tap.sleeve}
-        | {mount.row for mount in found.mounts}
-    )
 
 
 def _lies_at(piping: Piping, row: int, part: int) -> bool:

@@ -1,0 +1,69 @@
+"""Ends of lines at which a fitting is closed in itself: the pot of a strainer, the holes of its bolts."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Sequence
+
+from cadgraph.stages.relate.attach import Attachments
+from cadgraph.stages.relate.joint import Ends
+
+__all__ = ["closed_ends"]
+
+# Both mouths of a fitting are as wide within this share; they lie on one axis within this many radii.
+_AS_WIDE, _ASIDE = 0.1, 0.5
+
+
+def closed_ends(found: Attachments, fittings: Collection[int], lids: Collection[int]) -> frozenset[int]:
+    """The free ends of fittings of two mouths that are neither of these.
+
+    A fitting that two lines go on from has no other mouth; where one line does, what lies opposite and is as wide is
+    the other mouth. Of one by itself nobody knows.
+
+    Args:
+        found: what joins what.
+        fittings: the parts.
+        lids: parts that close what they are joined to; these fittings may be lids of each other, too.
+
+    Returns:
+        Rows of these ends.
+    """
+    ends, of_part = found.ends, found.ends.of_part
+    joined = found.joined_rows()
+    leading = {row for row, other in _joined_to(found) if other not in fittings and other not in lids}
+    closed: set[int] = set()
+    for part in fittings:
+        rows = of_part.get(part, ())
+        mouths = [row for row in rows if row in leading]
+        free = [row for row in rows if row not in joined]
+        if len(mouths) == 1:
+            opposite = _opposite(ends, mouths[0], free)
+            free = [row for row in free if row != opposite] if opposite is not None else []
+        if mouths:
+            closed.update(free)
+    return frozenset(closed)
+
+
+def _joined_to(found: Attachments) -> Iterator[tuple[int, int]]:
+    """Rows of ends with a part that each joins."""
+    part = found.ends.part
+    for facing in found.facings:
+        yield facing.first, int(part[facing.second])
+        yield facing.second, int(part[facing.first])
+    for tapped in found.taps:
+        yield tapped.row, tapped.part
+    for mount in found.mounts:
+        yield mount.row, mount.part
+
+
+def _opposite(ends: Ends, mouth: int, rows: Sequence[int]) -> int | None:
+    """The end that looks the other way on the axis of a mouth, and is as wide; the farthest of several."""
+    axis, radius = ends.direction[mouth], float(ends.radius[mouth])
+    found: list[tuple[float, int]] = []
+    for row in rows:
+        apart = ends.point[row] - ends.point[mouth]
+        along = -float(apart @ axis)
+        aside = float(((apart + along * axis) ** 2).sum() ** 0.5)
+        alike = abs(float(ends.radius[row]) - radius) <= _AS_WIDE * radius
+        if alike and along > 0 and aside <= _ASIDE * radius and float(ends.direction[row] @ axis) < -0.9:
+            found.append((along, row))
+    return max(found)[1] if found else None
