@@ -9,17 +9,18 @@ from cadgraph.model.given_labels import GivenLabel
 from cadgraph.model.records import Junction, Terminal
 from cadgraph.pipeline import build
 from cadplants import STYLES
-from cadplants.lines.instrument import strainer_at, valve_at
+from cadplants.lines.instrument import strainer_at, tee_at, valve_at
 from cadplants.lines.layout import Run, lay
 from cadplants.lines.route import Route
 from cadplants.model.plant import Plant
 from cadplants.presets.single_device import make_device
 
 
-def ends_of(plant):
-    """Junctions and ends of the lines of a plant whose labels are known."""
+def ends_of(plant, wrong=None):
+    """Junctions and ends of the lines of a plant whose labels are known, but for names that are ``wrong``."""
     known = zip(plant.paths(), plant.components, strict=True)
-    graph = build(plant.scene(), labels=[GivenLabel(path, part.group, part.name) for path, part in known])
+    labels = [GivenLabel(path, part.group, (wrong or {}).get(part.name, part.name)) for path, part in known]
+    graph = build(plant.scene(), labels=labels)
     return graph.of_layer(Junction), graph.of_layer(Terminal)
 
 
@@ -56,3 +57,11 @@ def test_the_mouths_of_a_strainer_by_itself_are_not_lost(family):
     at = [end.point[0] for end in terminals if abs(end.point[2]) < 1e-6]
     assert min(at) == pytest.approx(whole[:, 0].min())
     assert max(at) == pytest.approx(whole[:, 0].max())
+
+
+def test_an_open_branch_of_a_tee_that_is_taken_for_a_strainer_stays():
+    route = Route(np.array([(0.0, 0.0, 1.0), (4.0, 0.0, 1.0)]))
+    laid = lay(Run("L", 100, route, (tee_at(2.0, "J-1", 100, 80),), ends=("blind", "flange")), STYLES["plant-design"])
+    plant = Plant.of(laid.assembly, "line", 0, [STYLES["plant-design"]])
+    _, terminals = ends_of(plant, {"tee": "strainer"})
+    assert sorted(end.kind for end in terminals) == ["blind", "open", "open"]

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
 
+import numpy as np
+
 from cadgraph.stages.relate.attach import Attachments
 from cadgraph.stages.relate.joint import Ends
 
@@ -14,7 +16,7 @@ _AS_WIDE, _ASIDE = 0.1, 0.5
 
 
 def closed_ends(found: Attachments, fittings: Collection[int], lids: Collection[int]) -> frozenset[int]:
-    """The free ends of fittings of two mouths that are neither of these.
+    """The free ends of fittings of two mouths that are neither of these, and in which no bore is seen.
 
     A fitting that two lines go on from has no other mouth; where one line does, what lies opposite and is as wide is
     the other mouth. Of one by itself nobody knows.
@@ -27,20 +29,23 @@ def closed_ends(found: Attachments, fittings: Collection[int], lids: Collection[
     Returns:
         Rows of these ends.
     """
-    ends, of_part = found.ends, found.ends.of_part
     joined = found.joined_rows()
     leading = {row for row, other in _joined_to(found) if other not in fittings and other not in lids}
     closed: set[int] = set()
     for part in fittings:
-        rows = of_part.get(part, ())
+        rows = found.ends.of_part.get(part, ())
         mouths = [row for row in rows if row in leading]
-        free = [row for row in rows if row not in joined]
-        if len(mouths) == 1:
-            opposite = _opposite(ends, mouths[0], free)
-            free = [row for row in free if row != opposite] if opposite is not None else []
-        if mouths:
-            closed.update(free)
-    return frozenset(closed)
+        closed.update(_beside(found.ends, mouths, [row for row in rows if row not in joined]))
+    # A bore leads on, whatever the fitting is called.
+    return frozenset(row for row in closed if np.isnan(found.ends.bore[row]))
+
+
+def _beside(ends: Ends, mouths: Sequence[int], free: Sequence[int]) -> Sequence[int]:
+    """The free ends of a fitting that are no mouth of it, by those that lines go on from."""
+    if len(mouths) != 1:
+        return free if mouths else ()
+    opposite = _opposite(ends, mouths[0], free)
+    return () if opposite is None else [row for row in free if row != opposite]
 
 
 def _joined_to(found: Attachments) -> Iterator[tuple[int, int]]:
