@@ -36,16 +36,16 @@ def closed_ends(found: Attachments, fittings: Collection[int], lids: Collection[
         rows = found.ends.of_part.get(part, ())
         mouths = [row for row in rows if row in leading]
         closed.update(_beside(found.ends, mouths, [row for row in rows if row not in joined]))
-    # A bore leads on, whatever the fitting is called.
-    return frozenset(row for row in closed if np.isnan(found.ends.bore[row]))
+    return frozenset(closed)
 
 
 def _beside(ends: Ends, mouths: Sequence[int], free: Sequence[int]) -> Sequence[int]:
     """The free ends of a fitting that are no mouth of it, by those that lines go on from."""
-    if len(mouths) != 1:
-        return free if mouths else ()
-    opposite = _opposite(ends, mouths[0], free)
-    return () if opposite is None else [row for row in free if row != opposite]
+    other = _opposite(ends, mouths[0], free) if len(mouths) == 1 else None
+    if len(mouths) + (other is not None) < 2:
+        return ()
+    # A bore leads on, whatever the fitting is called.
+    return [row for row in free if row != other and np.isnan(ends.bore[row])]
 
 
 def _joined_to(found: Attachments) -> Iterator[tuple[int, int]]:
