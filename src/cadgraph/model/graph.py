@@ -433,6 +433,7 @@ class SceneGraph:
         return max((*kinds.values(), *others), default=0) > above
 
     @classmethod
+    @collector_paused()
     def load(cls, path: str | Path) -> SceneGraph:
         """Reads ``graph.json``, or the folder that holds it.
 
