@@ -21,7 +21,7 @@ from cadgraph.export.baked_files import Files
 from cadgraph.export.baked_labels import LayerLabels
 from cadgraph.export.source import settings_of
 from cadgraph.export.usd import (
-    authorable_path,
+    authorable_paths,
     export_layer,
     geometry_layer,
     is_split,
@@ -90,9 +90,7 @@ def write_baked(
     )
     baked.write()
     roots = {prim.name for prim in layer.rootPrims}
-    carried = tuple(authorable_path(anchor) for anchor in anchors)
-    shown = carried if anchors is paths else tuple(authorable_path(path) for path in paths)
-    held = targets_of_parts(scene, graph, shown, carried)
+    held = targets_of_parts(scene, graph, *authorable_paths(paths, anchors))
     add_structure(layer, unused("CadGraph", roots), graph, held)
     written = export_layer(layer, target)
     return written, (*notes, *_told(baked), *files.notes())

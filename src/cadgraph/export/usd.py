@@ -46,6 +46,7 @@ from cadgraph.model.scene import Faces, Floats, Scene
 
 __all__ = [
     "authorable_path",
+    "authorable_paths",
     "export_layer",
     "geometry_layer",
     "is_split",
@@ -97,8 +98,7 @@ def write_semantics(scene: Scene, graph: SceneGraph, source_path: str | Path, pa
         refuse_overwriting(source, below)
         anchors = targets = prim_paths(scene)
         write_geometry(scene, below)
-    authorable = tuple(authorable_path(anchor) for anchor in anchors)
-    shown = authorable if anchors is targets else tuple(authorable_path(target) for target in targets)
+    shown, authorable = authorable_paths(targets, anchors)
     layer = Sdf.Layer.CreateAnonymous(".usda")
     roots = _restate(layer, below, target, scene)
     roots.update({anchor.split("/", 2)[1] for anchor, path in zip(anchors, authorable, strict=True) if path})
@@ -242,6 +242,12 @@ def authorable_path(anchor: str) -> Any:
         return None
     path = Sdf.Path(anchor)
     return path if path.IsAbsolutePath() and path.IsPrimPath() else None
+
+
+def authorable_paths(targets: Sequence[str], anchors: Sequence[str]) -> tuple[tuple[Any, ...], tuple[Any, ...]]:
+    """Likewise the paths of meshes, and of what carries them; as a rule these are the same."""
+    carried = tuple(authorable_path(anchor) for anchor in anchors)
+    return carried if anchors is targets else tuple(authorable_path(target) for target in targets), carried
 
 
 def _label_anchors(layer: Any, anchors: Sequence[Any], scene: Scene, graph: SceneGraph) -> None:

@@ -13,10 +13,12 @@ from typing import Any, TypeVar, cast
 
 from pydantic import ValidationError
 
+from cadgraph._io.garbage import collector_paused
 from cadgraph.errors import FormatError
 from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.names import Names
 from cadgraph.model.records import (
+    ROWS_OF,
     Adjacent,
     AnyEdge,
     AnyNode,
@@ -303,11 +305,9 @@ class ShardedContent(Content):
     @cached_property
     def document(self) -> GraphDocument:
         rest = {key: value for key, value in self._data.items() if key != "shards"} | {"version": 1}
-        joined = {
-            key: self._shards.joined(key, self._data.get(key, ()))
-            for key in ("nodes", "edges", "joints", "stated", "diagnostics")
-        }
-        return validated({**rest, **joined}, self._where)
+        with collector_paused():
+            joined = {key: self._shards.joined(key, self._data.get(key, ())) for key in ROWS_OF}
+            return validated({**rest, **joined}, self._where)
 
     def of_layer(self, layer: type[AnyNode]) -> list[AnyNode]:
         if layer is Part and self._shards.holds("nodes", "part"):

@@ -44,7 +44,7 @@ def _absent(**limits: Any) -> Any:
 def _checked_as_fields(init: Callable[..., None]) -> None:
     """Has pydantic check the fields of a record that it reads by themselves, where it would call ``__init__``.
 
-    Half a million guesses of a large graph are read twice as fast. ``RootModel`` of pydantic does the same.
+    Large graphs hold half a million of them. ``RootModel`` of pydantic does the same.
     """
     init.__pydantic_base_init__ = True  # type: ignore[attr-defined]
 

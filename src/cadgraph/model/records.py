@@ -419,6 +419,10 @@ AnyNode = TypeVar("AnyNode", Site, Cluster, Part, Unit, Junction, Terminal, Syst
 AnyEdge = TypeVar("AnyEdge", Contains, Adjacent, Connected, Related, ReachedFrom)
 
 
+ROWS_OF = ("nodes", "edges", "joints", "stated", "diagnostics")
+"""What of a document is many rows."""
+
+
 class GraphDocument(Record):
     """``graph.json`` as it stands on disk."""
 
@@ -450,10 +454,6 @@ class GraphDocument(Record):
         # One row of each is enough for what stands where.
         few = self.model_copy(update={key: some[:1] for key, some in rows.items()}).model_dump(mode="json")
         return {key: rows.get(key) or value for key, value in few.items()}
-
-
-ROWS_OF = ("nodes", "edges", "joints", "stated", "diagnostics")
-"""What of a document is many rows."""
 
 
 def document_schema() -> dict[str, Any]:

@@ -152,7 +152,7 @@ def cut(
                 text = b"".join(json_row(row) + b"\n" for row in some)
                 digest = hashlib.sha256(text).hexdigest()
                 name = f"{'-'.join(filter(None, (key, kind)))}-{number:05d}-{digest[:16]}.jsonl.gz"
-                first, last = (_name_of(key, row) for row in (some[0], some[-1]))
+                first, last = (_called(key, row) for row in (some[0], some[-1]))
                 run["shards"].append({"file": name, "rows": len(some), "sha256": digest, "first": first, "last": last})
                 yield name, text
 
@@ -160,7 +160,7 @@ def cut(
 
 
 def _packed(shards: Iterable[tuple[str, bytes]]) -> Iterator[tuple[str, bytes]]:
-    """Shards gzipped, a few at a time, while those that follow are made: that takes longer than all else of them."""
+    """Shards gzipped, a few at a time, while those that follow are made."""
     with ThreadPoolExecutor(_AT_ONCE) as pool:
         waiting: deque[tuple[str, Future[bytes]]] = deque()
         for name, text in shards:
@@ -172,18 +172,13 @@ def _packed(shards: Iterable[tuple[str, bytes]]) -> Iterator[tuple[str, bytes]]:
             yield ready, packed.result()
 
 
-def _name_of(key: str, row: Any) -> str:
-    """What a row that is not read yet is looked up by."""
+def _called(key: str, row: Any) -> str:
+    """What a row is looked up by: a record, or what was read of one; empty where rows have no names."""
     if key == "lookup":
         return str(row[0])
-    return str(row.id) if key == "nodes" else ""
-
-
-def _called(key: str, kind: str, row: Any) -> str:
-    """Likewise one that was read."""
-    if key == "lookup":
-        return str(row[0])
-    return str(row["id"]) if key == "nodes" else ""
+    if key != "nodes":
+        return ""
+    return str(row["id"] if isinstance(row, dict) else row.id)
 
 
 def _ascending(ids: Sequence[str]) -> bool:
@@ -315,9 +310,9 @@ class Shards:
             return None
         lines = self._some(run.shards[place])
         # Of all lines, only those that are looked at are taken apart.
-        at = bisect.bisect_left(lines, wanted, key=lambda line: _order(key, kind)(_called(key, kind, self._row(line))))
+        at = bisect.bisect_left(lines, wanted, key=lambda line: _order(key, kind)(_called(key, self._row(line))))
         found = self._row(lines[at]) if at < len(lines) else None
-        return found if found is not None and _called(key, kind, found) == name else None
+        return found if found is not None and _called(key, found) == name else None
 
     def _some(self, shard: Shard) -> list[bytes]:
         if shard.file not in self._kept:

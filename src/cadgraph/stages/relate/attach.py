@@ -125,14 +125,15 @@ class Attachments:
     made: Mapping[int, Offer]
     refused: Mapping[int, Offer]
 
-    def joined_rows(self) -> set[int]:
-        """Rows of the ends that join something; one in a sleeve doesn't."""
-        return (
-            {row for facing in self.facings for row in (facing.first, facing.second)}
-            | {row for row, _ in self.doubled}
-            | {tapped.row for tapped in self.taps if not tapped.tap.sleeve}
-            | {mount.row for mount in self.mounts}
-        )
+    def joined(self) -> Iterator[tuple[int, int]]:
+        """Rows of the ends that join something, each with a part that it joins; one in a sleeve doesn't."""
+        part = self.ends.part
+        for facing in self.facings:
+            yield facing.first, int(part[facing.second])
+            yield facing.second, int(part[facing.first])
+        yield from ((row, int(part[twin])) for row, twin in self.doubled)
+        yield from ((tapped.row, tapped.part) for tapped in self.taps if not tapped.tap.sleeve)
+        yield from ((mount.row, mount.part) for mount in self.mounts)
 
 
 def attach_lines(

@@ -188,13 +188,7 @@ def _contract(piping: Piping, units: Sequence[UnitParts], drawing: Drawing, name
     """The runs between units, junctions and terminals."""
     given = piping.given
     tapped = {number for number, unit in enumerate(units) if unit.unit_type in ("gauge", "valve")}
-    strainers = [part for part in piping.lines if names[part] == "strainer"]
-    lids = [part for part in piping.lines if names[part] in _CLOSED]
-    closed = Closed(
-        covers=frozenset(part for part, line in piping.lines.items() if _is_cover(line, names[part])),
-        pockets=closed_ends(piping.joints, frozenset(strainers), frozenset(lids)),
-    )
-    net = simplify(drawing, tapped, closed, len(units), given.config.relate.leg)
+    net = simplify(drawing, tapped, _closed(piping, drawing, names), len(units), given.config.relate.leg)
     carried = {*piping.lines, *piping.lineless, *_owners(units), *piping.jackets}
     return make_network(
         net,
@@ -206,6 +200,15 @@ def _contract(piping: Piping, units: Sequence[UnitParts], drawing: Drawing, name
         lambda row: _cover(piping, carried, row),
         given.is_connector.__getitem__,
     )
+
+
+def _closed(piping: Piping, drawing: Drawing, names: Sequence[str | None]) -> Closed:
+    """Where no run ends: at lids of fittings, and in the pots of strainers."""
+    covers = frozenset(part for part, line in piping.lines.items() if _is_cover(line, names[part]))
+    strainers = frozenset(part for part in piping.lines if names[part] == "strainer")
+    lids = frozenset(part for part in piping.lines if names[part] in _CLOSED)
+    rows = closed_ends(piping.joints, strainers, lids)
+    return Closed(covers, frozenset(node for node, own in drawing.ends.items() if rows.issuperset(own)))
 
 
 def _cover(piping: Piping, carried: Collection[int], row: int) -> Cover | None:

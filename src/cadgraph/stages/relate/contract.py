@@ -32,7 +32,7 @@ class Closed:
 
     Args:
         covers: lids that close a fitting of their own, as a strainer's lid does.
-        pockets: rows of ends at which a fitting is closed in itself, as a strainer's pot.
+        pockets: nodes at which a fitting is closed in itself, as in a strainer's pot.
     """
 
     covers: frozenset[int]
@@ -132,18 +132,16 @@ def _drop_stubs(net: Net, n_units: int, drawing: Drawing, closed: Closed) -> boo
     for number, span in sorted(net.spans.items()):
         for tip, foot in ((span.a, span.b), (span.b, span.a)):
             free = number in net.spans and tip >= n_units and net.degree(tip) == 1 and tip not in drawing.solids
-            if free and net.degree(foot) >= 3 and _is_stub(net, span, (tip, foot), drawing, closed):
+            if free and net.degree(foot) >= 3 and _is_stub(net, span, tip, foot, closed):
                 net.remove(number)
                 dropped = True
     return dropped
 
 
-def _is_stub(net: Net, span: Span, nodes: tuple[int, int], drawing: Drawing, closed: Closed) -> bool:
-    """Whether a span that hangs at a joint is no pipe: a flange or gasket, a fitting's lid or pot. Nodes: tip, foot."""
-    tip, foot = nodes
+def _is_stub(net: Net, span: Span, tip: int, foot: int, closed: Closed) -> bool:
+    """Whether a span from a joint, its foot, to a free tip is no pipe: a flange or gasket, a fitting's lid or pot."""
     wide = max(_width(net.spans[other]) for other in net.at[foot])
-    rows = drawing.ends.get(tip, ())
-    pocket = not closed.covers.isdisjoint(span.via) or (bool(rows) and closed.pockets.issuperset(rows))
+    pocket = tip in closed.pockets or not closed.covers.isdisjoint(span.via)
     return (pocket and span.length <= max(_STUB, _POCKET * wide)) or (not span.pieces and span.length <= _STUB)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Sequence
 
 import numpy as np
 
@@ -29,13 +29,14 @@ def closed_ends(found: Attachments, fittings: Collection[int], lids: Collection[
     Returns:
         Rows of these ends.
     """
-    joined = found.joined_rows()
-    leading = {row for row, other in _joined_to(found) if other not in fittings and other not in lids}
+    joined = list(found.joined())
+    rows_joined = {row for row, _ in joined}
+    leading = {row for row, other in joined if other not in fittings and other not in lids}
     closed: set[int] = set()
     for part in fittings:
         rows = found.ends.of_part.get(part, ())
         mouths = [row for row in rows if row in leading]
-        closed.update(_beside(found.ends, mouths, [row for row in rows if row not in joined]))
+        closed.update(_beside(found.ends, mouths, [row for row in rows if row not in rows_joined]))
     return frozenset(closed)
 
 
@@ -46,18 +47,6 @@ def _beside(ends: Ends, mouths: Sequence[int], free: Sequence[int]) -> Sequence[
         return ()
     # A bore leads on, whatever the fitting is called.
     return [row for row in free if row != other and np.isnan(ends.bore[row])]
-
-
-def _joined_to(found: Attachments) -> Iterator[tuple[int, int]]:
-    """Rows of ends with a part that each joins."""
-    part = found.ends.part
-    for facing in found.facings:
-        yield facing.first, int(part[facing.second])
-        yield facing.second, int(part[facing.first])
-    for tapped in found.taps:
-        yield tapped.row, tapped.part
-    for mount in found.mounts:
-        yield mount.row, mount.part
 
 
 def _opposite(ends: Ends, mouth: int, rows: Sequence[int]) -> int | None:

@@ -428,7 +428,7 @@ def drop_shapeless(piping: Piping) -> Piping:
 
 def _shapeless(piping: Piping) -> set[int]:
     """Parts with a line of their own that joins nothing, at which two or more loose ends of other lines lie."""
-    joined, of_part = piping.joints.joined_rows(), piping.joints.ends.of_part
+    joined, of_part = {row for row, _ in piping.joints.joined()}, piping.joints.ends.of_part
     loose = {part: [row for row in rows if row not in joined] for part, rows in of_part.items()}
     idle = {part for part, rows in loose.items() if len(rows) == len(of_part[part])}
     busy = _without(loose, idle)
