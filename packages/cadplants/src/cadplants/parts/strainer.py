@@ -38,23 +38,21 @@ def _solids(dn: int, style: ModelingStyle) -> tuple[Solid, Solid]:
     profile += [(pot, seat - plate), (collar, seat - plate), (collar, seat)]
     if style.hollow:
         profile += [(pot - wall, seat), (pot - wall, low + wall), (0.0, low + wall)]
-    body = [_mouth(dn, style, 0.5 * length)]
-    body.append(moved(body[0], at(length) @ spun("z", np.pi)))
-    body.append(moved(turned(profile, sides), at(0.5 * length)))
-    drain = 0.25 * pot
-    body.append(moved(hexagon(drain, low - 0.3 * pot - 0.6 * drain, low - 0.3 * pot), at(0.5 * length)))
-    lid, top = [cylinder(collar, seat, seat + plate, sides)], seat + plate
-    if style.devices == "built":
+    drain, top, built = 0.25 * pot, seat + plate, style.devices == "built"
+    upright = [turned(profile, sides), hexagon(drain, low - 0.3 * pot - 0.6 * drain, low - 0.3 * pot)]
+    lid = [cylinder(collar, seat, top, sides)]
+    if built:
         # A lid that is lifted off for cleaning has a handle.
         turns = np.linspace(0.0, np.pi, 7)
         high, wide = top - 0.003, 0.5 * pot
         handle = [(wide * np.cos(a), 0.0, high + 0.7 * wide * np.sin(a)) for a in turns]
         lid.append(rope(handle, 0.06 * pot + 0.002, max(6, sides // 4)))
-    if style.devices == "built" and style.fasteners != "none":
+    if built and style.fasteners != "none":
         flats, circle, count = 0.1 * pot + 0.008, 0.5 * (pot + collar) + 0.002, 8 if dn >= 80 else 6
         lid.append(around(hexagon(flats, top, top + 0.6 * flats), count, circle))
-        nuts = around(hexagon(flats, seat - plate - 0.7 * flats, seat - plate), count, circle)
-        body.append(moved(nuts, at(0.5 * length)))
+        upright.append(around(hexagon(flats, seat - plate - 0.7 * flats, seat - plate), count, circle))
+    mouth = _mouth(dn, style, 0.5 * length)
+    body = [mouth, moved(mouth, at(length) @ spun("z", np.pi)), *(moved(piece, at(0.5 * length)) for piece in upright)]
     return merge(body), merge(lid)
 
 
