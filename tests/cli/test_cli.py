@@ -1,4 +1,5 @@
 import json
+import os
 import signal
 import subprocess
 import sys
@@ -10,6 +11,7 @@ import pytest
 import cadgraph
 import graphs
 import shapes
+from cadgraph.cli.signals import Stopped, stoppable
 from cadgraph.model.scene import Scene
 from command_line import refused, run
 
@@ -281,6 +283,44 @@ def test_a_stop_that_a_library_swallows_comes_again(capsys, monkeypatch, tmp_pat
     monkeypatch.setattr("sys.unraisablehook", lambda _: None)
     monkeypatch.setattr("cadgraph.session.run.run", work)
     assert run(capsys, "build", "a.usd", "-o", tmp_path / "out")[0] == 130
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="there the number goes to a socket")
+def test_a_signal_that_woke_nobody_comes_again(capsys, monkeypatch, tmp_path):
+    def work(*_, **__):
+        # All that happens when the main thread was on its way into a call of the system that then waits.
+        told = signal.set_wakeup_fd(-1)
+        signal.set_wakeup_fd(told)
+        os.write(told, bytes([signal.SIGTERM]))
+        threading.Event().wait(30)
+
+    monkeypatch.setattr("cadgraph.cli.signals._PATIENCE", 0.05)
+    monkeypatch.setattr("cadgraph.session.run.run", work)
+    assert run(capsys, "build", "a.usd", "-o", tmp_path / "out")[0] == 143
+
+
+def test_a_signal_that_got_through_does_not_come_again(monkeypatch):
+    monkeypatch.setattr("cadgraph.cli.signals._PATIENCE", 0.05)
+    told = signal.set_wakeup_fd(-1)
+    with stoppable():
+        with pytest.raises(Stopped) as stop:
+            signal.raise_signal(signal.SIGINT)
+        stop.value.got_through()
+        threading.Event().wait(0.2)
+        with pytest.raises(Stopped):
+            signal.raise_signal(signal.SIGINT)
+    assert signal.set_wakeup_fd(told) == told
+    assert "cadgraph-signals" not in [thread.name for thread in threading.enumerate()]
+
+
+def test_a_signal_that_a_server_took_over_does_not_come_again(monkeypatch):
+    monkeypatch.setattr("cadgraph.cli.signals._PATIENCE", 0.05)
+    heard = []
+    with stoppable():
+        signal.signal(signal.SIGINT, lambda *_: heard.append(1))
+        signal.raise_signal(signal.SIGINT)
+        threading.Event().wait(0.2)
+    assert heard == [1]
 
 
 @pytest.mark.parametrize("unit", ["nan", "0", "-1", "inf", "1e-9"])

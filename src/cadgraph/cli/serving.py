@@ -69,14 +69,23 @@ def serve(
             serve_http(plants, host, port, _say)
         else:
             serve_stdio(plants)
-    except* Stopped:
+    except* Stopped as stops:
         stopped = True
+        _heed(stops)
     finally:
         _close(plants)
     if stopped:
         # A thread waits for a line of the client, which can't be ended, and the process would wait for it.
         sys.stderr.flush()
         os._exit(0)
+
+
+def _heed(stop: BaseException) -> None:
+    """Says that the wish to end is heeded, so that writing what is left may take its time."""
+    while isinstance(stop, BaseExceptionGroup):
+        stop = stop.exceptions[0]
+    if isinstance(stop, Stopped):
+        stop.got_through()
 
 
 def _close(plants: Plants) -> None:
