@@ -106,7 +106,8 @@ def arcs_of(layer: Any) -> LayerArcs:
         number = len(above)
         above.append(parent)
         sizes.append(1)
-        children = prim.nameChildren.values()
+        # A list: the view of the library is true also where it is empty.
+        children = list(prim.nameChildren.values())
         if children:
             inner.append((str(prim.path), number))
             stack.extend([(child, number) for child in children])

@@ -76,3 +76,18 @@ def test_other_triangles_give_the_same_network(name, labeler, change):
 @pytest.mark.parametrize("least", [0.3, 0.5])
 def test_from_where_on_labels_are_given_changes_no_connection(least):
     assert network("plm", None, "embedded", least) == as_drawn("plm", "embedded")
+
+
+def told(file):
+    """The type and kind of each unit on its lines, and how many of their connections have a direction."""
+    graph = build(load(file, LoadConfig(isolate=False)))
+    # The mark of the plant's origin, which looks like a gauge, is in one of the files only.
+    units = [(unit.unit_type, unit.kind) for unit in graph.of_layer(Unit) if unit.unit_type != "gauge"]
+    ways = [one.direction for one in graph.of_kind(Connected)]
+    return sorted(units, key=str), sum(way != "unknown" for way in ways)
+
+
+def test_a_plant_tells_as_much_from_the_format_of_its_own_system():
+    if not (REAL / "plm").is_dir():
+        pytest.skip("no real plants here")
+    assert told(REAL / "plm/plm.rvm") == told(REAL / "plm/scene.usdc")

@@ -8,7 +8,7 @@ import pytest
 import shapes
 from cadgraph.model.labels import Guess, Label
 from cadgraph.stages.relate import trace
-from piping import PIPE, STEEL, VALVE, R, bend, pipe, ring, turned
+from piping import PIPE, PUMP, STEEL, VALVE, R, bend, pipe, ring, turned
 from runs import BRIDGE, run, touching
 from sketch import Sketch, X, block
 
@@ -153,6 +153,38 @@ def test_between_flanges_a_short_cylinder_is_a_valve(name):
 def test_with_a_flange_on_one_side_it_is_a_piece_of_pipe():
     sketch = unsure(flanges=(1,))
     assert not trace._is_flanged(sketch.given(), 0)
+
+
+def nozzle(sure=0.85, widths=(0.075, 0.06, R), gasket=False, beside=None, source="geometry"):
+    """A flange with its neck that the labeler takes for a valve, the first part, between a pipe's flange and a pump."""
+    wide, shoulder, narrow = widths
+    profile = [(0, 0), (wide, 0), (wide, 0.02), (shoulder, 0.03), (narrow, 0.08), (0, 0.08)]
+    sketch = Sketch()
+    sketch.add(turned(shapes.lathe(profile), (0, 0, 0), X), VALVE, "valve", sure, source)
+    sketch.add(block((0.28, 0, 0), (0.4, 0.4, 0.4)), PUMP, "pump casing")
+    if beside is not None:
+        sketch.add(block((0.04, 0, 0.1), (0.03, 0.03, 0.11)), VALVE, beside)
+    gap = 0.004 * gasket
+    if gasket:
+        sketch.add(ring((-gap, 0, 0), X, gap, 0.06, R), PIPE, "gasket")
+    sketch.add(ring((-gap, 0, 0), (-1, 0, 0)), PIPE, "flange")
+    sketch.pipe((-1, 0, 0), (-gap - 0.02, 0, 0))
+    return sketch
+
+
+@pytest.mark.parametrize("gasket", [False, True])
+def test_a_lone_flange_with_its_neck_is_a_valve_only_where_the_labeler_is_sure(gasket):
+    assert 0 in lines(nozzle(gasket=gasket))
+    assert 0 not in lines(nozzle(sure=0.91, gasket=gasket))
+    assert 0 not in lines(nozzle(source="author", gasket=gasket))
+
+
+def test_what_looks_like_one_and_belongs_to_a_valve_is_a_piece_of_that():
+    assert 0 not in lines(nozzle(beside="valve stem"))
+
+
+def test_what_is_about_as_wide_at_both_ends_is_no_flange_with_its_neck():
+    assert 0 not in lines(nozzle(widths=(0.075, 0.075, 0.065)))
 
 
 def continued(sure, ratios, traced, contacts):

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from cadgraph.geometry.line.centreline import Centreline
 
-__all__ = ["is_disc", "is_plain_tube", "is_steady"]
+__all__ = ["is_disc", "is_neck", "is_plain_tube", "is_steady"]
 
 # The radius of a plain tube is as much at both of its ends within this share, and changes by less than the other one
 # between them: bends of few sides are narrower at their mitres.
 _STEADY, _UNEVEN = 0.06, 0.12
+# The narrow end of a welding neck as share of its wide one, and the cosine between the two.
+_NARROW, _STRAIGHT = 0.8, -0.996
 
 
 def is_disc(line: Centreline) -> bool:
@@ -29,3 +31,11 @@ def is_steady(line: Centreline) -> bool:
     first, last = sorted((float(line.ends[0].radius), float(line.ends[1].radius)))
     even = radius.max() <= (1 + _UNEVEN) * radius.min() and last <= (1 + _STEADY) * first
     return bool(even and line.share > 0.9)
+
+
+def is_neck(line: Centreline) -> bool:
+    """Whether a line is that of a short straight piece of two widths: a flange with its welding neck."""
+    if not is_disc(line) or len(line.ends) != 2:
+        return False
+    narrow, wide = sorted((float(line.ends[0].radius), float(line.ends[1].radius)))
+    return narrow <= _NARROW * wide and float(line.ends[0].direction @ line.ends[1].direction) < _STRAIGHT

@@ -13,6 +13,7 @@ from cadgraph.stages.relate.evidence import Curve, Term, tell_terms
 from cadgraph.stages.relate.foot import take_feet
 from cadgraph.stages.relate.inline import pipe_radius, recover_inline
 from cadgraph.stages.relate.joint import Ends
+from cadgraph.stages.relate.meter import take_meters
 from cadgraph.stages.relate.piping import Group, Piping, Recovered
 from cadgraph.stages.relate.prune import prune_lines
 
@@ -92,7 +93,7 @@ def recover_units(piping: Piping) -> Piping:
     # Rows of ends hold for the piping that they were found in: all is looked at before anything changes.
     for sight in [_look_at(piping, body, ends, mounted) for body in bodies]:
         piping = _taken(piping, sight.body, *_type_of(piping, beliefs, sight))
-    return take_feet(piping, beliefs)
+    return take_feet(take_meters(piping, beliefs), beliefs)
 
 
 def _is_named(beliefs: Beliefs) -> bool:

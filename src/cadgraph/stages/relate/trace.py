@@ -17,7 +17,7 @@ from cadgraph.model.scene import Floats
 from cadgraph.stages.relate.attach import facings_of
 from cadgraph.stages.relate.decide import decide_joints
 from cadgraph.stages.relate.joint import Ends, find_tap, gather_ends
-from cadgraph.stages.relate.line import is_disc, is_plain_tube, is_steady
+from cadgraph.stages.relate.line import is_disc, is_neck, is_plain_tube, is_steady
 from cadgraph.stages.relate.offer import Surroundings, offer_faces
 from cadgraph.stages.relate.piping import Group, Piping, RelateInput
 from cadgraph.stages.relate.role import Roles, likely_lines
@@ -240,6 +240,8 @@ def _least_ratios(
         if ratio is not None:
             ratios[part] = ratio
     ratios |= dict.fromkeys(_steady_pieces(given, possible.unsure, traced) - ratios.keys(), _SAME_RATIO)
+    # A gasket before it, or its pipe behind it, is far narrower.
+    ratios |= dict.fromkeys(_lone_necks(given, possible, traced), _RATIO)
     return ratios | dict.fromkeys(_plain_tubes(possible.between, traced), _BOTH_ENDS)
 
 
@@ -247,6 +249,14 @@ def _steady_pieces(given: RelateInput, parts: Sequence[int], traced: Mapping[int
     """Those parts that run on as wide as they begin and don't lie between flanges."""
     steady = [part for part in parts if part in traced and is_steady(traced[part])]
     return {part for part in steady if not _is_flanged(given, part)}
+
+
+def _lone_necks(given: RelateInput, possible: _Possible, traced: Mapping[int, Centreline]) -> set[int]:
+    """What is taken, by itself and without being sure, for a device, and is a flange with its neck; half a valve's body
+    looks like one, too, but has the rest of the valve beside it.
+    """
+    alone = set(possible.singles).intersection(possible.unsure)
+    return {part for part in alone if part in traced and is_neck(traced[part]) and not _is_flanged(given, part)}
 
 
 def _plain_tubes(parts: Sequence[int], traced: Mapping[int, Centreline]) -> list[int]:
