@@ -66,7 +66,32 @@ def test_a_valve_before_a_blind_end_or_an_instrument_need_not_be_closed():
     )
     found = find_isolation(graph, "P-001")
     assert closed(found) == ["V-001", "V-004"]
-    assert found.remarks[0] == "V-002 need not be closed: nothing can flow from behind it"
+    assert found.remarks[0] == "V-002 need not be closed: nothing was found behind it that could flow"
+    assert found.shut_off_names == ("V-002", "V-003", "G-001"), "these stay open, and hang together with the pump"
+    assert len(found.connections) == 8, "all but the pipes behind the valves that are closed"
+
+
+def test_a_valve_before_a_tank_is_closed_although_another_way_leads_there_too():
+    graph = pump("T-001 J1 P-001 V-001 T-001", "P-001 V-002 T-002")
+    found = find_isolation(graph, "P-001")
+    assert [opening.name for opening in found.openings] == ["T-001"]
+    assert closed(found) == ["V-001", "V-002"]
+    assert not found.remarks
+
+
+def test_a_valve_between_a_tank_and_itself_lets_nothing_else_in():
+    found = find_isolation(pump("T-001 V-001 T-001", "T-001 V-002 T-002"), "T-001")
+    assert closed(found) == ["V-002"]
+
+
+def test_a_section_that_nothing_feeds_may_hold_something():
+    found = find_isolation(pump("X1 V-001 G-001 X2", kinds=[("X1", "blind"), ("X2", "blind")]), "G-001")
+    assert (found.isolated, found.valves, found.shut_off_names) == (True, (), ("V-001",))
+    told = isolation_lines(found)
+    assert told[0] == "no valve has to be closed to isolate G-001: nothing that could flow to it was found"
+    assert told[-1].endswith("what it holds, and under what pressure, nobody knows")
+    fed = find_isolation(pump("X1 V-001 G-001 X2", kinds=[("X2", "blind")]), "G-001")
+    assert not any("nobody knows" in line for line in isolation_lines(fed))
 
 
 def test_a_check_valve_does_not_isolate_by_default():

@@ -110,6 +110,21 @@ def test_a_tank_that_nothing_flows_to_any_more_is_told():
     assert tags(found.dead_headed) == {"P-001"}
 
 
+@pytest.mark.parametrize(("kind", "why"), [("gate valve", ""), (None, "only if V-001 really shuts")])
+def test_what_pumps_and_tanks_meet_depends_on_whether_the_valve_shuts(kind, why):
+    nodes = [unit("T-001"), unit("T-002"), unit("V-001", kind), unit("P-001", ports=("N1", "N2"))]
+    found = what_if(network(nodes, chain("T-001 P-001 V-001 T-002")), "V-001")
+    assert [one.why for one in (*found.dead_headed, *found.not_refilled)] == [why, why]
+    assert found.known is (not why)
+
+
+def test_no_tank_is_filled_through_a_valve_before_a_blind_end():
+    nodes = [unit("T-001"), unit("V-001", "gate valve"), terminal(1, "blind"), terminal(2), terminal(3)]
+    ways = [*chain("T-001 V-001 X1", direction="unknown"), *chain("X2 T-001"), *chain("T-001 X3")]
+    found = what_if(network(nodes, ways), "V-001")
+    assert found.unknown == found.not_refilled == ()
+
+
 def test_a_valve_on_the_side_of_a_run_does_not_close_the_run():
     nodes = [
         unit("T-001"),

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, NoReturn
 
 import typer
 from rich.markup import escape
@@ -60,7 +60,6 @@ def serve(
         raise ValueError("--who goes with --write")
     name = (f"agent of {user_name()}".removesuffix(" of ") if who is None else who) if write else None
     plants = Plants(where, name)
-    stopped = False
     try:
         if http:
             from cadgraph.agents.mcp.http import serve_http
@@ -68,16 +67,19 @@ def serve(
             # Standard output is left to protocols.
             serve_http(plants, host, port, _say)
         else:
-            serve_stdio(plants)
+            serve_stdio(plants, lambda: _end(plants))
     except* Stopped as stops:
-        stopped = True
         _heed(stops)
+        _end(plants)
     finally:
         _close(plants)
-    if stopped:
-        # A thread waits for a line of the client, which can't be ended, and the process would wait for it.
-        sys.stderr.flush()
-        os._exit(0)
+
+
+def _end(plants: Plants) -> NoReturn:
+    """Writes what is left to be written and ends the process, whatever its threads wait for."""
+    _close(plants)
+    sys.stderr.flush()
+    os._exit(0)
 
 
 def _heed(stop: BaseException) -> None:

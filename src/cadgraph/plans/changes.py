@@ -131,10 +131,14 @@ def _notes(goal: Goal, without: WhatIf | None, shut: WhatIf | None, told: set[st
 def _sentences(answer: WhatIf) -> list[str]:
     return [
         *answer.remarks,
-        *(f"{one.name} would pump against closed valves" for one in answer.dead_headed),
-        *(f"{one.name} is not refilled" for one in answer.not_refilled),
+        *(f"{one.name} would pump against closed valves{_condition(one)}" for one in answer.dead_headed),
+        *(f"{one.name} is not refilled{_condition(one)}" for one in answer.not_refilled),
         *(f"{doubt.name}: {doubt.text}" for doubt in answer.doubts),
     ]
+
+
+def _condition(one: Consequence) -> str:
+    return f", {one.why}" if one.why else ""
 
 
 def _names(listed: Iterable[Consequence]) -> set[str]:

@@ -101,7 +101,8 @@ class Isolation:
         openings: what can't be isolated.
         doubts: what may feed the unit without having been found: units of the section with fewer lines than their kind
             needs, and joints at it that were not made although much speaks for them.
-        shut_off: ids of the units that lie in the isolated section too, the nearest first.
+        shut_off: ids of the units that lie in the isolated section too, the nearest first; valves that need not be
+            closed are open and lie in it with what is behind them.
         shut_off_names: their tags.
         lines: tags of the lines in the section, wholly or in part.
         connections: numbers of the graph's connections in the section.
@@ -171,7 +172,7 @@ def find_isolation(
     section = _close_off(network, start, _Rules(network, check_valves, assume_shutoff), fewest)
     line_of = {arc.index: line.tag for line in find_lines(network) for arc in line.arcs}
     apart = {*section.needed, start}
-    inside = [p for p in section.inside() if network.unit_type(p) not in (None, "tank") and p not in apart]
+    inside = [p for p in section.left if network.unit_type(p) not in (None, "tank") and p not in apart]
     doubted = [place for place in _own(network, section) if place not in section.needed]
     return Isolation(
         target=section.start,
@@ -234,6 +235,8 @@ class _Section:
         walls: where the section ends.
         region: the nodes within, the start included.
         needed: the walls that have to be closed, and the valves on the sides of runs within that shut off.
+        left: the nodes within once these are closed, the nearest first, without the start: with what lies behind walls
+            that need not be closed, which are open.
     """
 
     start: str
@@ -242,6 +245,7 @@ class _Section:
     walls: frozenset[str]
     region: frozenset[str]
     needed: tuple[str, ...]
+    left: tuple[str, ...]
 
     def inside(self) -> list[str]:
         """The nodes within but for the start, the nearest first."""
@@ -265,16 +269,26 @@ def _close_off(network: Network, start: str, rules: _Rules, fewest: bool) -> _Se
         barriers = _smallest(network, start, barriers, rules)
     reached, walls = _flood(network, start, barriers, rules)
     region = {start, *(place for place in reached if place not in walls)}
-    needed = [place for place in walls if not _is_relief(network, place) and _is_fed(network, place, region, walls)]
+    needed = [
+        place for place in walls if not _is_relief(network, place) and _is_fed(network, start, place, region, walls)
+    ]
     # What a valve on the side of a run leads to was not found; nobody knows whether it feeds.
     needed += [place for place in reached if place in region and place in closing and network.stands_aside(place)]
-    nearest = sorted(reached, key=lambda place: (reached[place].distance, tag_key(network.name(place))))
-    return _Section(start, reached, tuple(nearest), frozenset(walls), frozenset(region), tuple(needed))
+    # What need not be closed stays open, and what lies behind it hangs together with the unit.
+    open_to, shut = _flood(network, start, barriers.intersection(needed), rules)
+    left = [place for place in _by_distance(network, open_to) if place not in shut]
+    return _Section(
+        start, reached, _by_distance(network, reached), frozenset(walls), frozenset(region), tuple(needed), tuple(left)
+    )
+
+
+def _by_distance(network: Network, reached: Mapping[str, _Reached]) -> tuple[str, ...]:
+    return tuple(sorted(reached, key=lambda place: (reached[place].distance, tag_key(network.name(place)))))
 
 
 def _own(network: Network, section: _Section) -> list[str]:
     """The nodes of a section, the start first, without tanks beside it, whose other lines don't belong to it."""
-    return [section.start, *(place for place in section.inside() if network.unit_type(place) != "tank")]
+    return [section.start, *(place for place in section.left if network.unit_type(place) != "tank")]
 
 
 def _lines(network: Network, section: _Section, line_of: Mapping[int, str]) -> tuple[str, ...]:
@@ -316,7 +330,7 @@ def _flood(network: Network, start: str, barriers: set[str], rules: _Rules) -> t
     return reached, walls
 
 
-def _is_fed(network: Network, wall: str, region: Collection[str], walls: Collection[str]) -> bool:
+def _is_fed(network: Network, start: str, wall: str, region: Collection[str], walls: Collection[str]) -> bool:
     """Whether anything behind a valve could flow to it: an end that isn't blind, a tank, a pump, other equipment.
 
     What lies behind a valve of which only one side is known, nobody knows.
@@ -326,7 +340,12 @@ def _is_fed(network: Network, wall: str, region: Collection[str], walls: Collect
     seen, stack = {wall}, [arc.end for arc in network.arcs(wall)]
     while stack:
         place = stack.pop()
-        if place in seen or place in region or place in walls:
+        if place in seen or place == start:
+            continue
+        if network.unit_type(place) == "tank":
+            # Also one that another way leads to, which is told as open: somebody may close that way by other means.
+            return True
+        if place in region or place in walls:
             continue
         seen.add(place)
         node = network.places[place]
@@ -453,6 +472,10 @@ def _remarks(network: Network, section: _Section, check_valves: bool) -> tuple[s
         for place in sorted(section.needed, key=lambda place: tag_key(network.name(place)))
         for relief in blocked_relief(network, place)
     ]
+    if not section.needed and not any(_is_source(network, place) for place in section.left):
+        told.append(
+            "nothing was found that fills or empties this section: what it holds, and under what pressure, nobody knows"
+        )
     likely = sorted((network.name(p) for p in section.needed if duty_of(network, p) == "likely"), key=tag_key)
     if likely:
         told.append(f"{', '.join(likely)}: kind only likely; all that it may be shuts off")
@@ -468,7 +491,7 @@ def _remark(network: Network, section: _Section, place: str, check_valves: bool)
         if few_ports(network, place) is not None:
             return "has a line on one side only: what lies behind it is not known"
         needless = place not in section.needed and not network.is_tap(arc)
-        return "need not be closed: nothing can flow from behind it" if needless else None
+        return "need not be closed: nothing was found behind it that could flow" if needless else None
     if duty == "check" and not check_valves:
         return PASSED_OVER
     if duty == "check" and arc.flow == "unknown":

@@ -210,7 +210,7 @@ def isolation_lines(found: Isolation, *, hints: bool = True) -> list[str]:
         heading = "these valves may not isolate" if found.valves else "nobody can tell what isolates"
         told += _doubt_lines(f"{heading} {found.name} wholly:", found.doubts)
     if found.isolated and not found.valves:
-        told.append(f"no valve has to be closed to isolate {found.name}: nothing can flow to it")
+        told.append(f"no valve has to be closed to isolate {found.name}: nothing that could flow to it was found")
     shut = ", ".join(found.shut_off_names) or "nothing else"
     lines = f" (lines {', '.join(found.lines)})" if found.lines else ""
     more = " (--check-valves counts it)" if hints else ""

@@ -55,8 +55,8 @@ class WhatIf:
             closed valves that it depends on, as nobody knows whether these can be shut.
         unknown: units and ends behind the valves that may be cut off or not, and tanks that may be refilled or not.
         still_fed: units and ends behind the valves to which a way of known direction leads from a source all the same.
-        not_refilled: tanks that count as sources and that nothing else flows to any more.
-        dead_headed: pumps that have no way left to a tank or an end.
+        not_refilled: tanks that count as sources and that nothing else flows to any more; ``why`` likewise.
+        dead_headed: pumps that have no way left to a tank or an end; ``why`` likewise.
         doubts: where a way that was not found may feed what is cut off.
         assumptions: what the answer supposes, a sentence each.
         remarks: on the closed valves, and on pumps that are cut off.
@@ -76,7 +76,8 @@ class WhatIf:
     @property
     def known(self) -> bool:
         """Whether nothing is open in the answer, as far as the graph goes."""
-        return not (self.unknown or self.doubts or any(one.why for one in self.cut_off))
+        told = (*self.cut_off, *self.not_refilled, *self.dead_headed)
+        return not (self.unknown or self.doubts or any(one.why for one in told))
 
 
 def what_if(
@@ -157,7 +158,9 @@ class _Closing:
         doubted = [self.network.name(place) for place in self.unsure if place in self.barriers]
         depends = f"only if {' and '.join(doubted)} really shuts"
         open_ones = (behind - cut) - surely_fed - set(self.sure_sources)
-        not_refilled, perhaps_filled = self._not_refilled(behind)
+        not_refilled, perhaps_filled = self._not_refilled(self.barriers)
+        surely_not_refilled, _ = self._not_refilled(shut_for_sure)
+        surely_dead_headed = self._dead_headed(cut, shut_for_sure)
         return WhatIf(
             closed=tuple(map(self.network.name, self.closed)),
             sources=tuple(map(self.network.name, self._by_tag(self.sources))),
@@ -167,8 +170,13 @@ class _Closing:
                 *(self._told(p, _FILLED) for p in self._by_tag(perhaps_filled)),
             ),
             still_fed=tuple(self._told(p) for p in self._by_tag((behind & surely_fed) - set(self.sources))),
-            not_refilled=tuple(self._told(p) for p in self._by_tag(not_refilled)),
-            dead_headed=tuple(self._told(p) for p in self._by_tag(self._dead_headed(cut))),
+            not_refilled=tuple(
+                self._told(p, "" if p in surely_not_refilled else depends) for p in self._by_tag(not_refilled)
+            ),
+            dead_headed=tuple(
+                self._told(p, "" if p in surely_dead_headed else depends)
+                for p in self._by_tag(self._dead_headed(cut, self.barriers))
+            ),
             doubts=self._doubts(cut),
             assumptions=self._assumptions(),
             remarks=self._remarks(before, cut),
@@ -217,10 +225,10 @@ class _Closing:
                     waiting.append(arc.end)
         return seen
 
-    def _behind(self) -> set[str]:
+    def _behind(self, follows: Follow | None = None) -> set[str]:
         """All that may have been fed through the closed valves; what lies behind a source it feeds itself."""
-        feeding = set(self.sure_sources)
-        return self._reach(self.barriers, (), lambda arc: arc.start not in feeding and self._follows(arc))
+        feeding, walks = set(self.sure_sources), follows or self._follows
+        return self._reach(self.barriers, (), lambda arc: arc.start not in feeding and walks(arc))
 
     def _follows(self, arc: Arc) -> bool:
         return arc.flow != "against" or self.network.is_tap(arc)
@@ -255,25 +263,29 @@ class _Closing:
             return "the ways left to it lead over pipes of unknown direction, or through a relief valve"
         return "the ways left to it come from ends of which nobody knows whether they feed"
 
-    def _not_refilled(self, behind: Collection[str]) -> tuple[list[str], list[str]]:
-        """Tanks that were filled through the closed valves: those that nothing fills now, those that something may."""
+    def _not_refilled(self, barriers: Collection[str]) -> tuple[list[str], list[str]]:
+        """Tanks that were filled through closed valves: those that nothing fills with some of them shut, those that
+        something may.
+        """
         nothing: list[str] = []
         perhaps: list[str] = []
+        # Through a valve on the way to a blind end nothing is filled.
+        behind = self._behind(lambda arc: self._follows(arc) and not self.network.is_dead(arc))
         for place in self.sources:
             if place not in behind or not isinstance(self.network.places[place], Unit):
                 continue
             others = [other for other in self.sources if other != place]
             if place not in self._reach(others, ()):
                 continue
-            if place not in self._reach(others, self.barriers):
+            if place not in self._reach(others, barriers):
                 nothing.append(place)
-            elif place not in self._reach({*self.sure_sources} - {place}, self.barriers, self._surely_follows):
+            elif place not in self._reach({*self.sure_sources} - {place}, barriers, self._surely_follows):
                 perhaps.append(place)
         return nothing, perhaps
 
-    def _dead_headed(self, cut: Collection[str]) -> list[str]:
+    def _dead_headed(self, cut: Collection[str], barriers: Collection[str]) -> list[str]:
         pumps = [p for p in self.network.places if self.network.unit_type(p) == "pump" and p not in cut]
-        return [p for p in pumps if self._delivers(p, ()) and not self._delivers(p, self.barriers)]
+        return [p for p in pumps if self._delivers(p, ()) and not self._delivers(p, barriers)]
 
     def _delivers(self, pump: str, blocked: Collection[str]) -> bool:
         """Whether a pump has a way to a tank or an end."""

@@ -3,7 +3,11 @@
 from __future__ import annotations
 
 import asyncio
-from typing import Any
+import signal
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any, NoReturn
 
 import anyio
 from mcp.server.stdio import stdio_server
@@ -14,16 +18,59 @@ from cadgraph.agents.plants import Plants
 __all__ = ["serve_stdio"]
 
 
-def serve_stdio(plants: Plants) -> None:
-    """Answers over standard input and output until the client closes them; nothing else is written there."""
+def serve_stdio(plants: Plants, end: Callable[[], NoReturn]) -> None:
+    """Answers over standard input and output until the client closes them; nothing else is written there.
+
+    Args:
+        plants: that are asked about.
+        end: ends the process when a signal says so: a thread waits for a line of the client, which can't be ended.
+    """
 
     async def serve() -> None:
-        asyncio.get_running_loop().set_exception_handler(_tell_faults)
+        loop = asyncio.get_running_loop()
+        loop.set_exception_handler(_tell_faults)
         server = make_server(plants)
-        async with stdio_server() as (incoming, outgoing):
-            await server.run(incoming, outgoing, server.create_initialization_options())
+        with _ended_by_signals(loop, end):
+            async with stdio_server() as (incoming, outgoing):
+                await server.run(incoming, outgoing, server.create_initialization_options())
 
     anyio.run(serve)
+
+
+@contextmanager
+def _ended_by_signals(loop: asyncio.AbstractEventLoop, end: Callable[[], NoReturn]) -> Iterator[None]:
+    """Within the block, Ctrl-C and a polite kill wake the loop, which ends the process between two of its steps.
+
+    An exception that is raised inside such a step leaves the tasks of the server half undone, or is lost.
+    """
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    before = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
+    spoken_to = signal.set_wakeup_fd(-1)
+
+    def restore() -> None:
+        for number, handler in before.items():
+            loop.remove_signal_handler(number)
+            signal.signal(number, handler)
+        signal.set_wakeup_fd(spoken_to, warn_on_full_buffer=False)
+
+    def heard() -> None:
+        # A second signal interrupts what is still written.
+        restore()
+        end()
+
+    try:
+        for number in before:
+            loop.add_signal_handler(number, heard)
+    except NotImplementedError:  # Windows: as everywhere else they raise an exception
+        signal.set_wakeup_fd(spoken_to, warn_on_full_buffer=False)
+        yield
+        return
+    try:
+        yield
+    finally:
+        restore()
 
 
 def _tell_faults(loop: asyncio.AbstractEventLoop, context: dict[str, Any]) -> None:
