@@ -2,6 +2,7 @@
 
 import json
 import os
+import signal
 import time
 from pathlib import Path
 
@@ -24,6 +25,11 @@ def end_once(file, number):
 
 def end_always(number):
     os._exit(number)
+
+
+def hears_ctrl_c():
+    """Whether Ctrl-C reaches its process, as it would have before its first line."""
+    return signal.SIGINT not in signal.pthread_sigmask(signal.SIG_BLOCK, [])
 
 
 def fail(number):

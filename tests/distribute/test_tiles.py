@@ -1,6 +1,7 @@
 """What a crew finds tile by tile is what one process finds, to the byte."""
 
 import json
+import sys
 import time
 
 import numpy as np
@@ -174,6 +175,19 @@ def test_a_call_that_always_ends_its_process_is_told_and_the_others_are_done():
     assert isinstance(failed, Failure)
     assert failed.reason == "no 3"
     assert isinstance(failed.error, ValueError)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="there is no mask of signals")
+def test_ctrl_c_reaches_no_process_while_it_starts():
+    with Processes(1) as hands:
+        assert hands.run(killed_tasks.hears_ctrl_c, [()]) == [False]
+    assert killed_tasks.hears_ctrl_c(), "it still reaches this one"
+
+
+def test_more_processes_than_are_of_use_are_refused(tmp_path):
+    with pytest.raises(ValueError, match=r"workers is 100000, for .* at most"):
+        run(DEMO_SCENE, tmp_path, workers=100_000)
+    assert list(tmp_path.iterdir()) == []
 
 
 @pytest.mark.parametrize("wrong", [{"workers": 0}, {"tiles": 0}])

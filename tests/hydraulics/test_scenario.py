@@ -2,6 +2,7 @@
 
 import pytest
 
+import graphs
 from cadgraph.errors import ScenarioError
 from cadgraph.hydraulics.balance import default_scenario
 from cadgraph.hydraulics.process import Process
@@ -37,6 +38,39 @@ def test_what_is_written_is_read_back_with_its_reasons(graph, tmp_path):
     again = read_scenario(file, graph)
     assert again == scenario
     assert scenario_text(again) == file.read_text(encoding="utf-8")
+
+
+def plant(*order):
+    """A tank and three valves in a row, whose tags are given in an order that a correction may change."""
+    parts = [graphs.part(k, f"/body {k}") for k in range(4)]
+    units = [
+        unit(tag, "gate valve" if k else None).model_copy(update={"parts": (parts[k].id,)})
+        for k, tag in enumerate(("T-001", *order))
+    ]
+    return network([*parts, *units, terminal(1)], chain(" ".join(["T-001", *order, "X1"])))
+
+
+def test_a_name_that_stands_for_another_unit_now_is_refused(tmp_path):
+    before, now = plant("V-001", "V-002", "V-003"), plant("V-003", "V-001", "V-002")
+    file = write_scenario(default_scenario(before), tmp_path)
+    assert read_scenario(file, before).names == {"T-001": "/body 0"} | {f"V-00{k}": f"/body {k}" for k in (1, 2, 3)}
+    with pytest.raises(ScenarioError) as told:
+        read_scenario(file, now)
+    words = "(V-001 is V-003 now, V-002 is V-001 now, V-003 is V-002 now); put the names of now"
+    assert words in str(told.value)
+    assert "\n" not in str(told.value)
+
+
+@pytest.mark.parametrize("used", ["valves: {v1: {opening: 0.5}}", 'play: [{at: 1, over: 1, set: {"V-001": 0}}]'])
+def test_only_names_that_a_file_uses_must_be_those_of_now(used, tmp_path):
+    names = 'names: {"V-001": "/body 1", "V-002": "/body 2"}'
+    if "v1" not in used:
+        assert read(f"{used}\n{names}", plant("V-001", "V-003", "V-002"), tmp_path)
+    with pytest.raises(ScenarioError, match=r"V-001 is V-002 now\)"):
+        read(f"{used}\n{names}", plant("V-002", "V-001", "V-003"), tmp_path)
+    with pytest.raises(ScenarioError, match="V-001 is no unit now"):
+        read(f"{used}\n{names.replace('/body 1', '/gone')}", plant("V-001", "V-002", "V-003"), tmp_path)
+    assert read(used, plant("V-002", "V-001", "V-003"), tmp_path), "written by hand, without them"
 
 
 def test_reasons_are_comments(graph):

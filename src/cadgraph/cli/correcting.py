@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import getpass
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -18,6 +19,8 @@ if TYPE_CHECKING:
 _SHOWN = 8  # parts that are named when a correction spreads
 
 _Pair = tuple[str, str] | None
+WhoOption = Annotated[str | None, typer.Option("--who", metavar="NAME", help="Who says so; your user name if none.")]
+WhyOption = Annotated[str, typer.Option("--why", metavar="TEXT", help="The reason, for the list of corrections.")]
 _Folder = Annotated[Path, typer.Argument(metavar="FOLDER", help="What 'cadgraph build' wrote.")]
 
 
@@ -65,10 +68,8 @@ def correct(
     ] = False,
     undo: Annotated[bool, typer.Option("--undo", help="Take the last correction back.")] = False,
     redo: Annotated[bool, typer.Option("--redo", help="Do again what was undone last.")] = False,
-    who: Annotated[
-        str | None, typer.Option("--who", metavar="NAME", help="Who says so; your user name if none.")
-    ] = None,
-    why: Annotated[str, typer.Option("--why", metavar="TEXT", help="The reason, for the list of corrections.")] = "",
+    who: WhoOption = None,
+    why: WhyOption = "",
     scene: Annotated[
         Path | None, typer.Option("--scene", metavar="FILE", help="The scene, if it has been moved.")
     ] = None,
@@ -108,7 +109,7 @@ def correct(
         out.print(f"[dim]{part.id:<12}[/]{escape(said)}")
     if len(done.changed) > _SHOWN:
         out.print(f"{len(done.changed) - _SHOWN:,} more are not shown")
-    _tell_lost(done.lost)
+    tell_lost(done.lost)
     tell_state(done.outcome.earlier, done.outcome.removed)
 
 
@@ -132,10 +133,11 @@ def corrections(
         when, who = row["when"] or "-", row["who"] or "-"
         out.print(f"[dim]{row['id']:>4} {escape(when):<20} {escape(who)}[/] {escape(told)}{state}")
     out.print(f"{len(rows):,} in all" if rows else "nothing was corrected")
-    _tell_lost(lost)
+    tell_lost(lost)
 
 
-def _tell_lost(lost: Any) -> None:
+def tell_lost(lost: Sequence[str]) -> None:
+    """Names the corrections in force that don't fit the graph any more."""
     for message in lost:
         out.print(f"[yellow]no longer fits:[/] {escape(message)}")
 

@@ -9,6 +9,7 @@ import typer
 from rich.markup import escape
 
 from cadgraph.cli.application import app
+from cadgraph.cli.correcting import WhoOption, WhyOption, tell_lost, user_name
 from cadgraph.cli.options import (
     AssetRootOption,
     ConfigOption,
@@ -79,6 +80,8 @@ def relabel(
     label: _LabelOption = None,
     forget: Annotated[bool, typer.Option("--forget", help="Take the correction of this part back.")] = False,
     this_only: Annotated[bool, typer.Option("--this-only", help="Leave all other parts as they are.")] = False,
+    who: WhoOption = None,
+    why: WhyOption = "",
     scene: _SceneOption = None,
     report: Annotated[bool, typer.Option("--report/--no-report", help="Draw pictures and write report.html.")] = True,
 ) -> None:
@@ -91,7 +94,17 @@ def relabel(
     if (label is None) != forget:
         raise ValueError("say what the part is with --as 'group/name', or take a correction back with --forget")
     with bars() as progress:
-        done = amend(folder, part, label, this_only=this_only, scene=scene, report=report, progress=progress)
+        done = amend(
+            folder,
+            part,
+            label,
+            this_only=this_only,
+            who=user_name() if who is None else who,
+            why=why,
+            scene=scene,
+            report=report,
+            progress=progress,
+        )
     corrected = done.part or done.outcome.graph.part(part)
     out.print(f"[bold]{corrected.id}[/] is {escape(_said(corrected))} now")
     others = [p for p in done.changed if p.id != corrected.id]
@@ -100,6 +113,9 @@ def relabel(
         out.print(f"[dim]{p.id:<12}[/]{escape(_said(p))}{escape(f': {why}') if why else ''}")
     more = f", {len(others) - _SHOWN} of them not shown" if len(others) > _SHOWN else ""
     out.print(f"{len(others):,} other parts changed{more}")
+    if done.renamed:
+        out.print(f"[yellow]{escape(done.renamed)}[/]")
+    tell_lost(done.lost)
     tell_state(done.outcome.earlier, done.outcome.removed)
 
 

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import os
 import signal
+import sys
 import threading
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager
 from multiprocessing import get_context, parent_process
 from typing import Any
 
@@ -17,6 +19,7 @@ from cadgraph.geometry.kernels.parallel import use_threads
 __all__ = ["Processes"]
 
 _TRIES = 3  # of a call whose process ends
+_MOST_EACH, _LEAST_MOST = 4, 16  # processes for each processor, and what may be asked for anywhere
 _ENDED = "its process ended each time it was tried; for want of memory give fewer --workers, or more --tiles"
 
 
@@ -26,15 +29,22 @@ class Processes:
     A script that uses it must keep its own work under ``if __name__ == "__main__":``, as each process imports it.
 
     Args:
-        workers: processes.
+        workers: processes; at most four for each processor, or 16.
         threads: that kernels use in each; None: the processors divided among them.
     """
 
     def __init__(self, workers: int, threads: int | None = None) -> None:
+        processors = os.cpu_count() or 1
+        most = max(_LEAST_MOST, _MOST_EACH * processors)
         if workers < 1:
             raise ValueError(f"workers is {workers}; give at least 1")
+        if workers > most:
+            raise ValueError(
+                f"workers is {workers}, for {processors} processor{'s' * (processors != 1)}; give at most {most}: more "
+                "processes than processors only take memory"
+            )
         self._workers = workers
-        self._threads = threads or max(1, (os.cpu_count() or 1) // workers)
+        self._threads = threads or max(1, processors // workers)
         self._pool: ProcessPoolExecutor | None = None
 
     def __enter__(self) -> Processes:
@@ -92,7 +102,8 @@ class Processes:
         """Runs some of the calls; those are without a result whose process ended."""
         try:
             pool = self._running()
-            futures = {pool.submit(function, *calls[number]): number for number in numbers}
+            with _deaf_to_ctrl_c():
+                futures = {pool.submit(function, *calls[number]): number for number in numbers}
         except BrokenProcessPool:
             self._drop()
             return
@@ -120,6 +131,21 @@ class Processes:
         if self._pool is not None:
             self._pool.shutdown(cancel_futures=True)
             self._pool = None
+
+
+@contextmanager
+def _deaf_to_ctrl_c() -> Iterator[None]:
+    """Within the block, what Ctrl-C does to this process waits; processes that are started here never hear of it, even
+    while they import what they need.
+    """
+    if sys.platform == "win32":
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def _begin(threads: int) -> None:

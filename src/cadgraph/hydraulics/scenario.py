@@ -6,6 +6,7 @@ import heapq
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from cadgraph.hydraulics.network import OUTSIDE, UNKNOWN_BORE, bore_at, ports_at
 from cadgraph.hydraulics.settings import (
@@ -72,15 +73,25 @@ def guess_scenario(graph: SceneGraph | Network) -> Scenario:
     for unit in units:
         of_type.setdefault(unit.unit_type, []).append(unit)
     pumps = {unit.tag: _pump(network, unit) for unit in of_type.get("pump", ())}
+    ends = _Ends(network, pumps).settings()
+    named = {**{unit.tag: unit for unit in units}, **{end: network.places[end] for end in ends}}
     return Scenario(
         fluid=Fluid(why=_DEFAULT_FLUID),
         pipes=Pipes(why=_DEFAULT_PIPES),
         valves={unit.tag: guess_valve(network, unit) for unit in of_type.get("valve", ())},
         pumps=pumps,
-        ends=_Ends(network, pumps).settings(),
+        ends=ends,
         tanks={unit.tag: _tank(network, unit) for unit in of_type.get("tank", ())},
         gauges={unit.tag: _gauge(unit) for unit in of_type.get("gauge", ())},
+        names={name: mesh for name, node in named.items() if (mesh := _largest_mesh(network, node)) is not None},
     )
+
+
+def _largest_mesh(network: Network, node: Any) -> str | None:
+    """The mesh that a unit or an end is known by: the first one of its largest part."""
+    parts = [network.graph.part(part) for part in node.parts]
+    largest = max(parts, key=lambda part: (part.area, part.id), default=None)
+    return largest.meshes[0] if largest is not None and largest.meshes else None
 
 
 def with_pressures(

@@ -55,6 +55,11 @@ _PLAY = """\
 # play:
 #   - {at: 2, over: 10, set: {"V-001": 0}}
 """
+_NAMES = """\
+# The mesh that each name stood for when this was written: where a correction of the plant has given one of the names
+# that are used above to another unit, the file is refused rather than applied to that.
+"""
+_MOST_NAMES = 3  # that a message quotes
 
 
 def write_scenario(scenario: Scenario, path: str | Path) -> Path:
@@ -100,12 +105,16 @@ def _lines(scenario: Scenario) -> Iterator[str]:
             yield f"  {json.dumps(tag)}:"
             yield from _values(setting, "    ", units=False)
     yield ""
-    if not scenario.play:
+    if scenario.play:
+        yield "play:"
+        yield from (f"  - {json.dumps(move.values())}" for move in scenario.play)
+    else:
         yield _PLAY.rstrip()
-        return
-    yield "play:"
-    for move in scenario.play:
-        yield f"  - {json.dumps(move.values())}"
+    if scenario.names:
+        yield ""
+        yield _NAMES.rstrip()
+        yield "names:"
+        yield from (f"  {json.dumps(name)}: {json.dumps(mesh)}" for name, mesh in scenario.names.items())
 
 
 def _values(setting: Setting, indent: str, units: bool = True) -> Iterator[str]:
@@ -147,7 +156,8 @@ class _Reading:
 
     def scenario(self, content: Any) -> Scenario:
         """What the plain values of a file say."""
-        sections = self._table(content, "the file", (*_ONE, *_SEVERAL, "play"))
+        sections = self._table(content, "the file", (*_ONE, *_SEVERAL, "play", "names"))
+        self._check_names(sections)
         parts: dict[str, Any] = {}
         for name in _ONE:
             parts[name] = self._merged(name, getattr(self.guess, name), sections.get(name))
@@ -159,7 +169,48 @@ class _Reading:
         scenario = Scenario(**parts)
         self._check(scenario)
         scenario = self._completed(scenario)
-        return scenario.model_copy(update={"play": self._play(sections.get("play"), scenario)})
+        play = self._play(sections.get("play"), scenario)
+        return scenario.model_copy(update={"play": play, "names": self.guess.names})
+
+    def _check_names(self, sections: Mapping[str, Any]) -> None:
+        """Refuses names that stood for something else when the file was written."""
+        meant = self._table(sections.get("names"), "names", sections.get("names") or ())
+        used = {self._spelled(key) for name in _SEVERAL for key in _keys(sections.get(name))}
+        play = sections.get("play")
+        for move in play if isinstance(play, list) else ():
+            used.update(map(self._spelled, _keys(move.get("set") if isinstance(move, dict) else None)))
+        moved = [(name, mesh) for name, mesh in meant.items() if str(name) in used and not self._holds(name, mesh)]
+        if not moved:
+            return
+        told = [f"{name} is {self._owner(mesh)} now" for name, mesh in moved[:_MOST_NAMES]]
+        more = [f"{len(moved) - _MOST_NAMES} more"] if len(moved) > _MOST_NAMES else []
+        raise self._fault(
+            "names",
+            f"a correction has given names to other units since this was written ({', '.join([*told, *more])}); "
+            f"put the names of now and take the section 'names' out, or delete the file: {_REMEDY}",
+        )
+
+    def _spelled(self, key: str) -> str:
+        """A name as the graph spells it."""
+        try:
+            return self.network.name(self.network.find(key))
+        except UnknownNode:
+            return key
+
+    def _holds(self, name: Any, mesh: Any) -> bool:
+        """Whether a name stands for what holds a mesh."""
+        try:
+            node = self.network.places[self.network.find(str(name))]
+        except UnknownNode:
+            return False
+        return any(mesh in self.network.graph.part(part).meshes for part in getattr(node, "parts", ()))
+
+    def _owner(self, mesh: Any) -> str:
+        """What a mesh is of now."""
+        try:
+            return self.network.name(self.network.find(str(mesh)))
+        except UnknownNode:
+            return "no unit"
 
     def _completed(self, scenario: Scenario) -> Scenario:
         """With what hangs on the pressures; the file's own values of that show as supposed where they are no others."""
@@ -320,6 +371,11 @@ class _Reading:
                 raise self._fault(place, f"{tag} must be from 0 to 1, not {value:g}")
             found[tag] = value
         return found
+
+
+def _keys(section: Any) -> list[str]:
+    """The names in a section, if it is one."""
+    return [str(key) for key in section] if isinstance(section, dict) else []
 
 
 def _chosen(given: _AnySetting, supposed: _AnySetting, field: str) -> _AnySetting:

@@ -148,7 +148,8 @@ class Move(Setting):
 class Scenario(Setting):
     """All that a simulation supposes.
 
-    Valves, pumps, tanks and gauges are there by tag, ends of pipes by id.
+    Valves, pumps, tanks and gauges are there by tag, ends of pipes by id. ``names`` says which mesh of the source each
+    of these names stands for: a correction may give a tag to another unit.
     """
 
     fluid: Fluid = Fluid()
@@ -159,6 +160,7 @@ class Scenario(Setting):
     tanks: dict[str, TankSetting] = Field(default_factory=dict)
     gauges: dict[str, GaugeSetting] = Field(default_factory=dict)
     play: tuple[Move, ...] = ()
+    names: dict[str, str] = Field(default_factory=dict)
 
     def head(self, pressure: float) -> float:
         """The height of a column that weighs as much as a pressure [m].

@@ -21,6 +21,7 @@ from cadgraph.session.requests import EditRequest
 from cadgraph.session.run import Clock, Outcome, stage_graph, write_rest
 from cadgraph.session.session import Change, Session, changed_parts
 from cadgraph.session.source import find_source
+from cadgraph.session.told import tell_renamed
 
 __all__ = ["Amendment", "amend", "apply_edits", "step_back_or_forth"]
 
@@ -35,6 +36,7 @@ class Amendment:
         changed: all parts with another label than before, itself included, as they are now.
         message: what was done, in words.
         lost: the corrections in force that don't fit the graph, in words.
+        renamed: units of the same parts that have another tag than before, in words.
     """
 
     outcome: Outcome
@@ -42,6 +44,7 @@ class Amendment:
     changed: tuple[Part, ...]
     message: str = ""
     lost: tuple[str, ...] = ()
+    renamed: str = ""
 
 
 def amend(
@@ -184,4 +187,11 @@ def _changed(
             clock("write graph", 0)
             stage_graph(seen, graph, source, target)
             outcome = write_rest(seen, graph, target, new, config.report if report else None, clock)
-    return Amendment(outcome, done.part, changed_parts(before, outcome.graph), done.message, session.lost)
+    return Amendment(
+        outcome,
+        done.part,
+        changed_parts(before, outcome.graph),
+        done.message,
+        session.lost,
+        tell_renamed(before, outcome.graph),
+    )
