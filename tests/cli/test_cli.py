@@ -431,3 +431,20 @@ def test_relabel_says_what_the_others_became(capsys, tmp_path):
     assert code == 0, err
     assert "part-00000 is Tank/shell now" in out
     assert "part-00001 Tank/shell" in " ".join(out.split())
+
+
+def test_relabel_says_which_units_are_called_otherwise_and_keeps_who_says_so(capsys, tmp_path):
+    graph = ("relabel", tmp_path / "out", "--no-report", "--this-only", "--as")
+    other = '    double3 xformOp:translate = ({}, 0, 0)\n    uniform token[] xformOpOrder = ["xformOp:translate"]\n}}\n'
+    mesh = USDA.split("def Mesh", 1)[1].rstrip().removesuffix("}")
+    meshes = [f"def Mesh{mesh.replace('box', name)}{other.format(x)}" for name, x in (("b", 9), ("c", 18))]
+    (tmp_path / "scene.usda").write_text(USDA + "".join(meshes))
+    run(capsys, "build", tmp_path / "scene.usda", "-o", tmp_path / "out", "--no-report")
+    _, out, _ = run(capsys, *graph, "Valve assembly/valve", "part-00000")
+    assert "now" in out.split("other parts changed")[0]
+    assert "V-" not in out
+    _, out, _ = run(capsys, *graph, "Valve assembly/valve", "part-00001", "--who", "Ada", "--why", "seen there")
+    assert "V-001 is now V-002" in out
+    said = run(capsys, "corrections", tmp_path / "out")[1]
+    assert "Ada" in said
+    assert "seen there" in said
