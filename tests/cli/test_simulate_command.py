@@ -89,3 +89,8 @@ def test_a_plant_is_written_for_epanet(folder, capsys):
     assert code == 0
     assert (folder / "plant.inp").read_text(encoding="utf-8").startswith("[TITLE]")
     assert "plant.inp" in out
+
+
+def test_how_long_to_play_goes_with_something_to_play(folder, capsys):
+    assert "--seconds goes with --play" in refused(capsys, "simulate", folder, "--seconds", "5")
+    assert not (folder / SCENARIO).exists()

@@ -49,8 +49,8 @@ def export(
         typer.Option(
             "--to",
             metavar="FORMAT",
-            help="att, csv, dexpi, epanet, gltf, graphml, html, ifc, isometric, labels-csv, mjcf, networkx-json, pcf "
-            "or usd.",
+            help="att, csv, dexpi, epanet, gltf, graphml, html, ifc, isometric, json, labels-csv, mjcf, networkx-json, "
+            "pcf, shards or usd.",
         ),
     ],
     output: Annotated[

@@ -14,6 +14,8 @@ from cadgraph.cli.application import app
 from cadgraph.cli.options import GraphArgument
 from cadgraph.cli.screen import err, out, say_json
 
+_PLAYED = 30.0  # s of a timetable, if nothing else is said
+
 
 @app.command()
 def simulate(
@@ -39,7 +41,9 @@ def simulate(
             "({V-003: 0}). Writes animation.usda, animation.png and animation.gif into the folder.",
         ),
     ] = None,
-    seconds: Annotated[float, typer.Option("--seconds", help="How long to play, at most 600.")] = 30.0,
+    seconds: Annotated[
+        float | None, typer.Option("--seconds", help="With --play: how long, at most 600; 30 if not said.")
+    ] = None,
     needles: Annotated[
         bool, typer.Option("--needles", help="Draw a needle in simulation.usda on every dial that has none.")
     ] = False,
@@ -68,6 +72,8 @@ def simulate(
     commands = _commands(changes or [])
     if play is not None and commands:
         raise ValueError("--play and --set: give one of them; what --set says can stand in the timetable, at: 0")
+    if seconds is not None and play is None:
+        raise ValueError("--seconds goes with --play")
     scenario = scenario if play is None else supposed_by(play, scenario)
     folder = graph if graph.is_dir() else graph.parent
     with _writing(folder, scenario, commands):
@@ -75,7 +81,7 @@ def simulate(
         before, values = standing(process), state_values(process)
         if commands:
             process.steady(commands)
-        film = None if play is None else play_timetable(process, play, seconds)
+        film = None if play is None else play_timetable(process, play, _PLAYED if seconds is None else seconds)
         stage = None if commands else write_stage_beside(graph, source, needles)
     shown = None if film is None else show_film(film, process, source, folder)
     changed = bool(commands) or film is not None
