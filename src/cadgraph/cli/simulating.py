@@ -70,10 +70,7 @@ def simulate(
     from cadgraph.hydraulics.text import change_lines, standing, standing_lines, state_values
 
     commands = _commands(changes or [])
-    if play is not None and commands:
-        raise ValueError("--play and --set: give one of them; what --set says can stand in the timetable, at: 0")
-    if seconds is not None and play is None:
-        raise ValueError("--seconds goes with --play")
+    length = _played(play, commands, seconds)
     scenario = scenario if play is None else supposed_by(play, scenario)
     folder = graph if graph.is_dir() else graph.parent
     with _writing(folder, scenario, commands):
@@ -81,7 +78,7 @@ def simulate(
         before, values = standing(process), state_values(process)
         if commands:
             process.steady(commands)
-        film = None if play is None else play_timetable(process, play, _PLAYED if seconds is None else seconds)
+        film = None if play is None else play_timetable(process, play, length)
         stage = None if commands else write_stage_beside(graph, source, needles)
     shown = None if film is None else show_film(film, process, source, folder)
     changed = bool(commands) or film is not None
@@ -97,6 +94,15 @@ def simulate(
         out.print()
         say_played(shown)
     _tell_assumed(process, file, written)
+
+
+def _played(play: Path | None, commands: dict[str, float], seconds: float | None) -> float:
+    """How long a timetable is played [s], once it is clear that one is, if any."""
+    if play is not None and commands:
+        raise ValueError("--play and --set: give one of them; what --set says can stand in the timetable, at: 0")
+    if seconds is not None and play is None:
+        raise ValueError("--seconds goes with --play")
+    return _PLAYED if seconds is None else seconds
 
 
 def _writing(folder: Path, scenario: Path | None, commands: dict[str, float]) -> AbstractContextManager[Any]:
