@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import getpass
-from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -11,7 +10,8 @@ import typer
 from rich.markup import escape
 
 from cadgraph.cli.application import app
-from cadgraph.cli.screen import bars, out, say_json, tell_state
+from cadgraph.cli.options import WhoOption, WhyOption
+from cadgraph.cli.screen import bars, out, say_json, tell_lost, tell_state
 
 if TYPE_CHECKING:
     from cadgraph.model.graph import SceneGraph
@@ -19,8 +19,6 @@ if TYPE_CHECKING:
 _SHOWN = 8  # parts that are named when a correction spreads
 
 _Pair = tuple[str, str] | None
-WhoOption = Annotated[str | None, typer.Option("--who", metavar="NAME", help="Who says so; your user name if none.")]
-WhyOption = Annotated[str, typer.Option("--why", metavar="TEXT", help="The reason, for the list of corrections.")]
 _Folder = Annotated[Path, typer.Argument(metavar="FOLDER", help="What 'cadgraph build' wrote.")]
 
 
@@ -134,12 +132,6 @@ def corrections(
         out.print(f"[dim]{row['id']:>4} {escape(when):<20} {escape(who)}[/] {escape(told)}{state}")
     out.print(f"{len(rows):,} in all" if rows else "nothing was corrected")
     tell_lost(lost)
-
-
-def tell_lost(lost: Sequence[str]) -> None:
-    """Names the corrections in force that don't fit the graph any more."""
-    for message in lost:
-        out.print(f"[yellow]no longer fits:[/] {escape(message)}")
 
 
 def user_name() -> str:

@@ -9,7 +9,7 @@ import typer
 from rich.markup import escape
 
 from cadgraph.cli.application import app
-from cadgraph.cli.correcting import WhoOption, WhyOption, tell_lost, user_name
+from cadgraph.cli.correcting import user_name
 from cadgraph.cli.options import (
     AssetRootOption,
     ConfigOption,
@@ -19,9 +19,11 @@ from cadgraph.cli.options import (
     StrictOption,
     UnitOption,
     UpOption,
+    WhoOption,
+    WhyOption,
     settings_of,
 )
-from cadgraph.cli.screen import bars, err, out, say_json, tell_state
+from cadgraph.cli.screen import bars, err, out, say_json, tell_lost, tell_state
 
 catalogs = typer.Typer(no_args_is_help=True, help="Catalogues of your own parts: add to one, list it.")
 app.add_typer(catalogs, name="catalog")

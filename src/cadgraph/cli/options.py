@@ -27,6 +27,8 @@ __all__ = [
     "StrictOption",
     "UnitOption",
     "UpOption",
+    "WhoOption",
+    "WhyOption",
     "read_flows",
     "settings_of",
     "values_of",
@@ -53,6 +55,8 @@ UnitOption = Annotated[
 UpOption = Annotated[
     str | None, typer.Option("--up", metavar="AXIS", help="Up axis of the file, whatever it says: X, Y or Z.")
 ]
+WhoOption = Annotated[str | None, typer.Option("--who", metavar="NAME", help="Who says so; your user name if none.")]
+WhyOption = Annotated[str, typer.Option("--why", metavar="TEXT", help="The reason, for the list of corrections.")]
 AssetRootOption = Annotated[
     list[str] | None,
     typer.Option(

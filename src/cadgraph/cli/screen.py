@@ -21,8 +21,8 @@ from cadgraph._io.text import harmless
 from cadgraph.cli.remaining import Remaining, told
 
 __all__ = [
-    "bars", "err", "note_line", "out", "say", "say_json", "summary_lines", "tell", "tell_built", "tell_next",
-    "tell_state",
+    "bars", "err", "note_line", "out", "say", "say_json", "summary_lines", "tell", "tell_built", "tell_lost",
+    "tell_next", "tell_state",
 ]  # fmt: skip
 
 _REMEDY = "'cadgraph build' makes it anew"
@@ -182,6 +182,12 @@ def tell_state(earlier: Sequence[str], removed: Sequence[str] = (), changed: Seq
         remedies = dict.fromkeys(_REMEDIES.get(name, _REMEDY) for name in names)
         if names:
             out.print(f"[dim]{'mind':<15}[/]{', '.join(names)}: {what}; {', '.join(remedies)}")
+
+
+def tell_lost(lost: Sequence[str]) -> None:
+    """Names the corrections in force that don't fit the graph any more."""
+    for message in lost:
+        out.print(f"[yellow]no longer fits:[/] {escape(message)}")
 
 
 def tell_next(commands: Sequence[str]) -> None:

@@ -56,6 +56,10 @@ class Vocabulary:
         """The unit type of each group that forms functional units."""
         return {name: group.unit for name, group in self.groups.items() if group.unit}
 
+    def groups_of(self, unit_type: str) -> list[str]:
+        """The groups that form units of a type, in alphabetical order."""
+        return sorted(name for name, group in self.groups.items() if group.unit == unit_type)
+
     def holds(self, group: str, name: str | None = None) -> bool:
         """Whether this group, or this name in this group, is in the tree."""
         return group in self.groups and (name is None or name in self.groups[group].names)

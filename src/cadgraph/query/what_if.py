@@ -158,8 +158,10 @@ class _Closing:
         doubted = [self.network.name(place) for place in self.unsure if place in self.barriers]
         depends = f"only if {' and '.join(doubted)} really shuts"
         open_ones = (behind - cut) - surely_fed - set(self.sure_sources)
-        not_refilled, perhaps_filled = self._not_refilled(self.barriers)
-        surely_not_refilled, _ = self._not_refilled(shut_for_sure)
+        # Through a valve on the way to a blind end nothing is filled.
+        filled = self._behind(lambda arc: self._follows(arc) and not self.network.is_dead(arc))
+        not_refilled, perhaps_filled = self._not_refilled(filled, self.barriers)
+        surely_not_refilled, _ = self._not_refilled(filled, shut_for_sure)
         surely_dead_headed = self._dead_headed(cut, shut_for_sure)
         return WhatIf(
             closed=tuple(map(self.network.name, self.closed)),
@@ -263,16 +265,14 @@ class _Closing:
             return "the ways left to it lead over pipes of unknown direction, or through a relief valve"
         return "the ways left to it come from ends of which nobody knows whether they feed"
 
-    def _not_refilled(self, barriers: Collection[str]) -> tuple[list[str], list[str]]:
-        """Tanks that were filled through closed valves: those that nothing fills with some of them shut, those that
-        something may.
+    def _not_refilled(self, filled: Collection[str], barriers: Collection[str]) -> tuple[list[str], list[str]]:
+        """Of the tanks among what was filled through closed valves, those that nothing fills with some valves shut, and
+        those that something may.
         """
         nothing: list[str] = []
         perhaps: list[str] = []
-        # Through a valve on the way to a blind end nothing is filled.
-        behind = self._behind(lambda arc: self._follows(arc) and not self.network.is_dead(arc))
         for place in self.sources:
-            if place not in behind or not isinstance(self.network.places[place], Unit):
+            if place not in filled or not isinstance(self.network.places[place], Unit):
                 continue
             others = [other for other in self.sources if other != place]
             if place not in self._reach(others, ()):

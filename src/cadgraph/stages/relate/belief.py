@@ -39,6 +39,12 @@ class Beliefs:
         total: Floats = self.values[:, columns].sum(axis=1)
         return total
 
+    def of_name(self, name: str) -> Floats:
+        """``(n_parts,)`` how likely each part is called so, in whatever group."""
+        columns = [k for k, (_, one) in enumerate(self.classes) if one == name]
+        total: Floats = self.values[:, columns].sum(axis=1)
+        return total
+
 
 def beliefs_of(labels: Sequence[Label | None], probabilities: Probabilities | None, vocabulary: Vocabulary) -> Beliefs:
     """What the labeler holds for possible, and for certain what others say.

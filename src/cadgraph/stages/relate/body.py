@@ -134,10 +134,10 @@ def _candidates(piping: Piping, beliefs: Beliefs) -> set[int]:
 
 def _weak_groups(piping: Piping, beliefs: Beliefs) -> Iterator[Group]:
     """Small units of which the labeler is not sure, and nobody else says anything: they may be others, or pieces."""
-    unit_of_group = piping.given.vocabulary.unit_of_group
+    vocabulary = piping.given.vocabulary
+    of_type = {kind: beliefs.of_groups(vocabulary.groups_of(kind)) for kind in {g.unit_type for g in piping.groups}}
     for group in piping.groups:
-        own = [name for name, unit in unit_of_group.items() if unit == group.unit_type]
-        likely = beliefs.of_groups(own)[list(group.parts)]
+        likely = of_type[group.unit_type][list(group.parts)]
         doubted = bool((likely < _UNSURE).all()) and bool(beliefs.open[list(group.parts)].all())
         if doubted and len(group.parts) <= _FEW and not piping.recovered.keys() & set(group.parts):
             yield group

@@ -60,7 +60,7 @@ def _feet(piping: Piping, beliefs: Beliefs) -> Iterator[tuple[int, int, float]]:
     """
     owner = {part: number for number, group in enumerate(piping.groups) for part in group.parts}
     lines = beliefs.of_groups(piping.given.vocabulary.connector_groups)
-    own = {kind: beliefs.of_groups(_groups_of(piping, kind)) for kind in _LONGEST}
+    own = {kind: beliefs.of_groups(piping.given.vocabulary.groups_of(kind)) for kind in _LONGEST}
     at = [(int(piping.joints.ends.part[mount.row]), owner.get(mount.part)) for mount in piping.joints.mounts]
     for part, number in at:
         if number is None or not _may_be_foot(piping, beliefs, part, piping.groups[number].unit_type):
@@ -68,10 +68,6 @@ def _feet(piping: Piping, beliefs: Beliefs) -> Iterator[tuple[int, int, float]]:
         likely, against = BESIDE * float(own[piping.groups[number].unit_type][part]), float(lines[part])
         if likely > 0 and likely >= against:
             yield part, number, likely / (likely + against)
-
-
-def _groups_of(piping: Piping, unit_type: str) -> list[str]:
-    return [name for name, unit in piping.given.vocabulary.unit_of_group.items() if unit == unit_type]
 
 
 def _may_be_foot(piping: Piping, beliefs: Beliefs, part: int, kind: str) -> bool:

@@ -63,7 +63,7 @@ def recover_inline(piping: Piping, beliefs: Beliefs, likelihood: Curve) -> Pipin
         beliefs: what each part may be.
         likelihood: what the logarithm of the labeler's probability adds.
     """
-    valves = {name for name, unit in piping.given.vocabulary.unit_of_group.items() if unit == "valve"}
+    valves = piping.given.vocabulary.groups_of("valve")
     if not valves:
         return piping
     likely = beliefs.of_groups(valves)

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from cadgraph.geometry.line.centreline import Centreline
 
-__all__ = ["is_disc", "is_neck", "is_plain_tube", "is_steady"]
+__all__ = ["is_disc", "is_neck", "is_plain_tube", "is_steady", "is_straight"]
 
 # The radius of a plain tube is as much at both of its ends within this share, and changes by less than the other one
 # between them: bends of few sides are narrower at their mitres.
 _STEADY, _UNEVEN = 0.06, 0.12
-# The narrow end of a welding neck as share of its wide one, and the cosine between the two.
-_NARROW, _STRAIGHT = 0.8, -0.996
+_NARROW = 0.8  # the narrow end of a welding neck as share of its wide one
+_STRAIGHT = -0.996  # cosine between the ends of something straight
 
 
 def is_disc(line: Centreline) -> bool:
@@ -35,7 +35,12 @@ def is_steady(line: Centreline) -> bool:
 
 def is_neck(line: Centreline) -> bool:
     """Whether a line is that of a short straight piece of two widths: a flange with its welding neck."""
-    if not is_disc(line) or len(line.ends) != 2:
+    if not (is_disc(line) and is_straight(line)):
         return False
     narrow, wide = sorted((float(line.ends[0].radius), float(line.ends[1].radius)))
-    return narrow <= _NARROW * wide and float(line.ends[0].direction @ line.ends[1].direction) < _STRAIGHT
+    return narrow <= _NARROW * wide
+
+
+def is_straight(line: Centreline) -> bool:
+    """Whether a line has two ends that look opposite ways."""
+    return len(line.ends) == 2 and float(line.ends[0].direction @ line.ends[1].direction) < _STRAIGHT

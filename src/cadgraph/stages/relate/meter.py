@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+import math
+from collections.abc import Iterator
 from dataclasses import replace
+from functools import partial
 
-import numpy as np
-
-from cadgraph.model.scene import Floats
 from cadgraph.stages.relate.belief import Beliefs
 from cadgraph.stages.relate.evidence import score_of, tell_terms
 from cadgraph.stages.relate.piping import Group, Piping, Recovered
@@ -31,14 +30,37 @@ def take_meters(piping: Piping, beliefs: Beliefs) -> Piping:
         piping: with its units.
         beliefs: what each part may be.
     """
-    for body in [group for group in piping.groups if _may_be_meter(piping, beliefs, group)]:
+    # All is looked at before anything changes: what joins what follows from the groups.
+    found = list(_find_meters(piping, beliefs))
+    if not found:
+        return piping
+    gone = {group for held, _ in found for group in held}
+    meters = [Group("gauge", tuple(sorted(part for group in held for part in group.parts))) for held, _ in found]
+    bodies = {held[0].parts[0]: judged for held, judged in found}
+    return replace(
+        piping,
+        groups=(*(group for group in piping.groups if group not in gone), *meters),
+        feet=piping.feet.union(bodies),
+        recovered={**piping.recovered, **bodies},
+    )
+
+
+def _find_meters(piping: Piping, beliefs: Beliefs) -> Iterator[tuple[list[Group], Recovered]]:
+    """The groups that are one meter, its body first, and how sure that is; of two bodies the first takes what sits on
+    both.
+    """
+    heads = {part: group for group in piping.groups if _is_head(piping, group) for part in group.parts}
+    if not heads:
+        return
+    shut = beliefs.of_groups(piping.given.vocabulary.groups_of("valve"))
+    measures, taken = beliefs.of_name(_METER), set[Group]()
+    for body in filter(partial(_may_be_meter, piping, beliefs), piping.groups):
         (part,) = body.parts
-        near = piping.given.neighbors.get(part, ())
-        heads = [group for group in piping.groups if _is_head(piping, group) and not set(near).isdisjoint(group.parts)]
-        found = _judged(piping, beliefs, part)
-        if heads and found.sure >= _SURE:
-            piping = _with_meter(piping, body, heads, found)
-    return piping
+        near = {heads[other] for other in heads.keys() & piping.given.neighbors.get(part, ())}.difference(taken)
+        judged = _judged(float(shut[part]), float(measures[part]))
+        if near and judged.sure >= _SURE:
+            taken |= near
+            yield [body, *near], judged
 
 
 def _may_be_meter(piping: Piping, beliefs: Beliefs, group: Group) -> bool:
@@ -54,32 +76,11 @@ def _is_head(piping: Piping, group: Group) -> bool:
     return group.unit_type == "gauge" and named and piping.mounted.keys().isdisjoint(group.parts)
 
 
-def _judged(piping: Piping, beliefs: Beliefs, part: int) -> Recovered:
-    """How sure it is that a valve's body under a transmitter is a meter, and why."""
-    unit_of_group = piping.given.vocabulary.unit_of_group
-    valves = beliefs.of_groups({name for name, unit in unit_of_group.items() if unit == "valve"})
-    shut, measures = (max(float(said[part]), _LEAST) for said in (valves, _of_name(beliefs, _METER)))
+def _judged(shut: float, measures: float) -> Recovered:
+    """How sure it is that a valve's body under a transmitter is a meter, by how likely it is either, and why."""
+    shut, measures = max(shut, _LEAST), max(measures, _LEAST)
     terms = [
         ("a transmitter sits on it, and nothing that moves", CARRIES),
-        (f"the labeler gives a flow meter {measures:.0%}, a valve {shut:.0%}", float(np.log(measures / shut))),
+        (f"the labeler gives a flow meter {measures:.0%}, a valve {shut:.0%}", math.log(measures / shut)),
     ]
     return Recovered(score_of(sum(odds for _, odds in terms)), tell_terms(terms))
-
-
-def _of_name(beliefs: Beliefs, name: str) -> Floats:
-    """``(n_parts,)`` how likely each part is called so, in whatever group."""
-    columns = [k for k, (_, one) in enumerate(beliefs.classes) if one == name]
-    total: Floats = beliefs.values[:, columns].sum(axis=1)
-    return total
-
-
-def _with_meter(piping: Piping, body: Group, heads: Collection[Group], found: Recovered) -> Piping:
-    """The piping in which a body and what sits on it are one gauge."""
-    parts = sorted({*body.parts, *(part for head in heads for part in head.parts)})
-    groups = [group for group in piping.groups if group is not body and group not in heads]
-    return replace(
-        piping,
-        groups=(*groups, Group("gauge", tuple(parts))),
-        feet=piping.feet.union(body.parts),
-        recovered={**piping.recovered, **dict.fromkeys(body.parts, found)},
-    )

@@ -241,7 +241,7 @@ def _groups_of(piping: Piping, unit_type: str) -> list[str]:
     vocabulary = piping.given.vocabulary
     if unit_type == FITTING:
         return sorted(vocabulary.connector_groups)
-    return sorted(group for group, unit in vocabulary.unit_of_group.items() if unit == unit_type)
+    return vocabulary.groups_of(unit_type)
 
 
 def _longest(piping: Piping, parts: Sequence[int]) -> float:

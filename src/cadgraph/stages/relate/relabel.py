@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from cadgraph.geometry.line.centreline import Centreline
 from cadgraph.model.labels import FormerLabel, Label, NetworkEvidence
 from cadgraph.stages.relate.belief import Beliefs, beliefs_of
-from cadgraph.stages.relate.line import is_plain_tube
+from cadgraph.stages.relate.line import is_plain_tube, is_straight
 from cadgraph.stages.relate.piping import Group, Piping
 from cadgraph.stages.relate.role import USERS
 
@@ -16,7 +15,6 @@ __all__ = ["relabel_parts"]
 # How sure a label is that follows from a line through the part, from its unit, or from most of its repeats (ours).
 _ON_LINE, _IN_UNIT, _OUTVOTED = 0.8, 0.7, 0.7
 _NAMED = 0.5  # least share of a name among those of its group
-_STRAIGHT = -0.996  # cosine between the ends of a straight pipe
 
 
 def relabel_parts(piping: Piping, groups: Sequence[Group]) -> tuple[Label | None, ...]:
@@ -54,7 +52,7 @@ def relabel_parts(piping: Piping, groups: Sequence[Group]) -> tuple[Label | None
 
 def _relabel_unit(piping: Piping, beliefs: Beliefs, group: Group, labels: list[Label | None]) -> None:
     """Labels of a unit's parts that are of its own group; what holds it together keeps its label."""
-    own = sorted(name for name, unit in piping.given.vocabulary.unit_of_group.items() if unit == group.unit_type)
+    own = piping.given.vocabulary.groups_of(group.unit_type)
     for part in group.parts if own else ():
         if _is_strange(piping, labels[part], part, own) and _may_change(piping, beliefs, part):
             said, name = _likeliest(beliefs, part, own)
@@ -98,13 +96,9 @@ def _connector(piping: Piping, beliefs: Beliefs, part: int) -> tuple[str, str | 
     line = piping.lines.get(part)
     held = piping.given.vocabulary.groups[group].names
     if line is not None and is_plain_tube(line):
-        by_shape = "pipe" if _is_straight(line) else "elbow"
+        by_shape = "pipe" if is_straight(line) else "elbow"
         return group, by_shape if by_shape in held else name
     return group, name
-
-
-def _is_straight(line: Centreline) -> bool:
-    return len(line.ends) == 2 and float(line.ends[0].direction @ line.ends[1].direction) < _STRAIGHT
 
 
 def _likeliest(beliefs: Beliefs, part: int, groups: Sequence[str]) -> tuple[str, str | None]:

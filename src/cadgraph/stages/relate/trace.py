@@ -17,7 +17,7 @@ from cadgraph.model.scene import Floats
 from cadgraph.stages.relate.attach import facings_of
 from cadgraph.stages.relate.decide import decide_joints
 from cadgraph.stages.relate.joint import Ends, find_tap, gather_ends
-from cadgraph.stages.relate.line import is_disc, is_neck, is_plain_tube, is_steady
+from cadgraph.stages.relate.line import is_disc, is_neck, is_plain_tube, is_steady, is_straight
 from cadgraph.stages.relate.offer import Surroundings, offer_faces
 from cadgraph.stages.relate.piping import Group, Piping, RelateInput
 from cadgraph.stages.relate.role import Roles, likely_lines
@@ -37,9 +37,8 @@ _PLATES = frozenset({"flange", "blind flange", "gasket"})
 # What the labeler alone takes for steelwork is a pipe only where lines go on at both of its ends: no ratio is enough.
 _BOTH_ENDS, _LEAST_LINES, _MOST_LINES = 2.0, 2, 6
 _ROUND = 0.12  # sides of a box that differ by less than this share are those of something round
-# A device drawn as a mere cylinder is straight (cosine between its ends) and at most so many radii long: a DN 15 gate
-# valve has ten.
-_STRAIGHT, _LONGEST_DEVICE = -0.996, 12.0
+# A device drawn as a mere cylinder is straight and at most so many radii long: a DN 15 gate valve has ten.
+_LONGEST_DEVICE = 12.0
 # A jacket has thinner lines (share of its radius) in its middle (likewise) at this share of so many places along it.
 # It is at least so many radii long, as couplings are not; or one line runs on beyond it by so many radii.
 _THINNER, _OFF_MIDDLE, _JACKET, _SAMPLES, _LEAST_JACKET, _BEYOND = 0.97, 0.25, 0.7, 9, 4.0, 0.25
@@ -333,8 +332,7 @@ def _runs_within(points: Floats, radius: float, line: Centreline) -> Bools:
 
 def _may_be_device(line: Centreline, doubtful: bool) -> bool:
     """Whether a tube may be all that is drawn of a valve: a straight, short one."""
-    straight = len(line.ends) == 2 and float(line.ends[0].direction @ line.ends[1].direction) < _STRAIGHT
-    return not doubtful and straight and line.length <= _LONGEST_DEVICE * float(line.branches[0].radius.max())
+    return not doubtful and is_straight(line) and line.length <= _LONGEST_DEVICE * float(line.branches[0].radius.max())
 
 
 def _continued(
