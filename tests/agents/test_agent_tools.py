@@ -156,6 +156,7 @@ def test_tags_that_look_alike_are_told_apart():
     [
         ("describe", {"id": "V-04x"}, r"did you mean V-0"),
         ("describe", {"id": "P-999"}, r"did you mean P-001, P-002\?"),
+        ("isolate", {"target": "L-0000"}, r"lines are numbered so"),
         ("isolate", {"target": "PX-001"}, r"did you mean P-001"),
         ("isolate", {"target": "system-001"}, r"is a system, not a unit"),
         ("find", {"type": "vlave"}, r"did you mean valve\?"),

@@ -183,6 +183,28 @@ def test_it_runs_as_a_module():
     assert done.stdout.startswith("cadgraph ")
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="no process can be sent Ctrl-C by itself there")
+def test_ctrl_c_while_the_program_is_still_imported_ends_it_without_a_word():
+    code = (
+        "import signal, sys, types\n"
+        "half_imported = types.ModuleType('cadgraph.cli')\n"
+        "half_imported.main = lambda: signal.raise_signal(signal.SIGINT)\n"
+        "sys.modules['cadgraph.cli'] = half_imported\n"
+        "from cadgraph.__main__ import main\n"
+        "main()\n"
+        "print('went on')\n"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stdout, done.stderr) == (-signal.SIGINT, "", "")
+
+
+def test_the_built_in_vocabulary_is_printed_as_a_file_to_begin_from(capsys, tmp_path):
+    code, out, _ = run(capsys, "vocabulary", "show", "--yaml")
+    assert code == 0
+    (tmp_path / "own.yaml").write_text(out)
+    assert cadgraph.read_vocabulary(tmp_path / "own.yaml") == cadgraph.default_vocabulary()
+
+
 def test_a_crash_between_files_leaves_none_half_written(monkeypatch, tmp_path):
     graph = cadgraph.build(Scene.from_meshes([shapes.box()]), cadgraph.Config().replace({"label.labeler": "none"}))
     monkeypatch.setattr(Path, "replace", lambda *_: (_ for _ in ()).throw(OSError(28, "No space left on device")))

@@ -91,6 +91,16 @@ def test_a_plant_is_written_for_epanet(folder, capsys):
     assert "plant.inp" in out
 
 
+def test_a_plant_is_written_for_epanet_elsewhere_as_the_folders_scenario_says(folder, capsys, tmp_path):
+    run(capsys, "simulate", folder)
+    _, out, _ = run(capsys, "export", folder, "--to", "epanet", "-o", tmp_path / "other")
+    assert (tmp_path / "other/plant.inp").exists()
+    assert f"as {folder / SCENARIO} says" in out
+    assert "--scenario is for epanet" in refused(
+        capsys, "export", folder, "--to", "graphml", "--scenario", folder / SCENARIO
+    )
+
+
 def test_how_long_to_play_goes_with_something_to_play(folder, capsys):
     assert "--seconds goes with --play" in refused(capsys, "simulate", folder, "--seconds", "5")
     assert not (folder / SCENARIO).exists()

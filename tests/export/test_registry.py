@@ -70,6 +70,13 @@ def test_a_folder_with_the_formats_suffix_is_a_folder(tmp_path):
     ]
 
 
+@pytest.mark.parametrize(("to", "name"), [("graphml", "plant.json"), ("labels-csv", "a.usdz"), ("dexpi", "plant.svg")])
+def test_a_file_of_another_format_is_refused(tmp_path, to, name):
+    with pytest.raises(ValueError, match="give such a file, or a folder"):
+        export_graph(graphs.graph(), to, tmp_path / name)
+    assert not (tmp_path / name).exists()
+
+
 def test_several_tables_do_not_fit_one_file(tmp_path):
     with pytest.raises(ValueError, match="give a folder"):
         export_graph(graphs.graph(), "csv", tmp_path / "plant.csv")

@@ -5,6 +5,7 @@ What is to be seen follows from the graph and is worked out here; the scene is l
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -12,9 +13,12 @@ import numpy as np
 from cadgraph.agents.answer import AskError, cell
 from cadgraph.agents.drawing.order import Order, Picture, Tagged
 from cadgraph.agents.plant import Plant
+from cadgraph.model.grid import Grid, from_runs
 from cadgraph.model.records import Cluster, Contains, Junction, Node, Part, Place, Point, System, Terminal, Unit
 
 __all__ = ["order_of", "picture"]
+
+_MOST_SPOTS = 400
 
 
 def order_of(plant: Plant, target: str) -> Order:
@@ -35,6 +39,7 @@ def order_of(plant: Plant, target: str) -> Order:
         _meshes_of(_parts_of(plant, node)),
         _meshes_of([part for other, _ in around for part in _parts_of(plant, other)]),
         tuple(Tagged(plant.called(other.id), point) for other, point in around),
+        _spots_of(node) if isinstance(node, Place) and not node.parts else (),
     )
 
 
@@ -93,6 +98,18 @@ def _neighbors(plant: Plant, node: Node) -> list[Node]:
         return []
     ends = dict.fromkeys(arc.end for arc in plant.network.arcs(node.id) if arc.end != node.id)
     return [plant.graph.nodes[end] for end in ends]
+
+
+def _spots_of(level: Place) -> tuple[Point, ...]:
+    """Points all over the squares of a level that one can stand on, few enough to be told apart in a picture."""
+    floor = level.floor
+    if floor is None:
+        return ()
+    grid, free = Grid(floor.origin, floor.step, floor.size), from_runs(floor.runs, floor.size)
+    every = max(1, math.ceil(math.sqrt(np.count_nonzero(free) / _MOST_SPOTS)))
+    xs, ys = grid.centers()
+    rows, columns = np.nonzero(free[::every, ::every])
+    return tuple((float(xs[c * every]), float(ys[r * every]), level.height) for r, c in zip(rows, columns, strict=True))
 
 
 def _point_of(node: Node) -> Point | None:

@@ -125,7 +125,11 @@ class Plant:
             raise AskError(self._hint(which) or cell(told, 500)) from None
 
     def _hint(self, which: str) -> str:
-        """Units whose tags begin with the same letters, where none has a tag much like this one."""
+        """The ends of a line of that number; units whose tags begin so, where none has a tag much like this one."""
+        line = next((each for each in self.lines if each.tag.casefold() == which.strip().casefold()), None)
+        if line is not None:
+            on_it = ", ".join((line.start_name, *line.through_names[:_MOST_HINTED], line.end_name))
+            return f"{line.tag} is a line; name what stands on it or at its ends: {on_it}"
         letters = "".join(itertools.takewhile(str.isalpha, cell(which))).casefold()
         tags = [tag for unit in self.graph.units() if (tag := self.called(unit.id)).casefold().startswith(letters)]
         near = difflib.get_close_matches(cell(which), [*self._named, *(unit.tag for unit in self.graph.units())], 1)

@@ -24,7 +24,7 @@ from cadgraph.cli.options import (
     settings_of,
     values_of,
 )
-from cadgraph.cli.screen import bars, err, out, tell
+from cadgraph.cli.screen import bars, err, out, say, tell
 
 vocabularies = typer.Typer(no_args_is_help=True, help="The tree of labels: grow, show, check, merge.")
 app.add_typer(vocabularies, name="vocabulary")
@@ -191,11 +191,21 @@ def grow_(
 
 
 @vocabularies.command("show")
-def show_(tree: _TreeArgument = None) -> None:
+def show_(
+    tree: _TreeArgument = None,
+    as_yaml: Annotated[
+        bool, typer.Option("--yaml", help="As a file for --vocabulary, to begin one of your own from.")
+    ] = False,
+) -> None:
     """Print a tree of labels."""
+    from cadgraph.labelers.lvlm.merging import to_yaml
     from cadgraph.model.vocabulary import default_vocabulary, read_vocabulary
 
-    for group, content in (read_vocabulary(tree) if tree else default_vocabulary()).groups.items():
+    shown_tree = read_vocabulary(tree) if tree else default_vocabulary()
+    if as_yaml:
+        say(to_yaml(shown_tree), end="")
+        return
+    for group, content in shown_tree.groups.items():
         marks = [f"unit: {content.unit}"] if content.unit else []
         marks += ["connector"] if content.connector else []
         shown = f" [dim]({', '.join(marks)})[/]" if marks else ""

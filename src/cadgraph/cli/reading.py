@@ -74,14 +74,29 @@ def export(
     open_instances: Annotated[
         bool, typer.Option("--open-instances", help="With --bake: open all instances, for renderers that skip them.")
     ] = False,
+    scenario: Annotated[
+        Path | None,
+        typer.Option(
+            "--scenario", metavar="FILE", help="For epanet: what to suppose; scenario.yaml of the folder by default."
+        ),
+    ] = None,
 ) -> None:
     """Write a graph in another format, as a page to look at, or a copy of its source with the labels in it."""
     from cadgraph.export import write_export
+    from cadgraph.hydraulics.settings import SCENARIO
     from cadgraph.model.graph import SceneGraph
 
     folder = graph if graph.is_dir() else graph.parent
+    if scenario is None and to == "epanet" and (folder / SCENARIO).exists():
+        scenario = folder / SCENARIO
     written = write_export(
-        SceneGraph.load(graph), to, output or folder, source, bake=bake, open_instances=open_instances
+        SceneGraph.load(graph),
+        to,
+        output or folder,
+        source,
+        bake=bake,
+        open_instances=open_instances,
+        scenario=scenario,
     )
     for path in written.files:
         out.print(f"wrote {escape(str(path))}")

@@ -112,6 +112,8 @@ def picture(
     from cadgraph.agents.picture import picture as draw
     from cadgraph.agents.plant import Plant
 
+    if output is not None and output.suffix.lower() != ".png":
+        raise ValueError(f"{output}: a picture is written as PNG; give a file that ends in .png")
     plant = Plant.open(graph)
     # A name from a file is no path.
     plain = "".join(

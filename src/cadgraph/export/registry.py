@@ -115,10 +115,10 @@ def _write_pcf(graph: SceneGraph, path: Path, _: Path | None) -> Written:
     return Written(*write_pcf(graph, path))
 
 
-def _write_epanet(graph: SceneGraph, path: Path, _: Path | None) -> Written:
+def _write_epanet(graph: SceneGraph, path: Path, _: Path | None, scenario: Path | None = None) -> Written:
     from cadgraph.export.epanet import write_epanet
 
-    file, notes = write_epanet(graph, path)
+    file, notes = write_epanet(graph, path, scenario)
     return Written((file,), notes)
 
 
@@ -174,7 +174,7 @@ _FORMATS = (
     ),
     Format(
         "epanet",
-        "the network of pipes as it is simulated, for EPANET; by scenario.yaml beside it where there is one",
+        "the network of pipes as it is simulated, for EPANET; by scenario.yaml where there is one",
         _write_epanet,
         file="plant.inp",
     ),
@@ -255,6 +255,10 @@ _BAKED = Format(
     file="baked.usdc",
     also=(".usda", ".usd"),
 )
+# What ends so is meant to be a file, whatever format was asked for.
+_OTHER_FILES = {Path(each.file).suffix for each in _FORMATS if each.file} | {
+    *(".usd", ".usdc", ".usdz", ".gltf", ".glb", ".ifc", ".htm", ".pcf", ".csv", ".svg", ".png", ".zip", ".parquet")
+}
 _OPENED = replace(_BAKED, write=partial(_write_baked, open_instances=True))
 
 
@@ -282,6 +286,7 @@ def write_export(
     *,
     bake: bool = False,
     open_instances: bool = False,
+    scenario: str | Path | None = None,
 ) -> Written:
     """Writes a graph in another format; several files come into their folder together.
 
@@ -294,6 +299,8 @@ def write_export(
             None: where it was.
         bake: of ``usd``: whether to write the source and its labels as one stage, instead of a layer over the source.
         open_instances: of a baked stage: whether to open all native instances, for renderers that skip them.
+        scenario: of ``epanet``: the file that says what is supposed; None: ``scenario.yaml`` beside the file that is
+            written where there is one.
 
     Returns:
         The files written, and what is to be said of them.
@@ -303,6 +310,7 @@ def write_export(
             that needs none.
         LoadError: the source is missing, is another one than the graph was made from, or one of another format.
         MissingExtra: the format needs a package that isn't installed.
+        ScenarioError: the scenario can't be used.
         OutputError: a file can't be written, or another process is at work in the folder.
     """
     form = next((each for each in _FORMATS if each.name == to), None)
@@ -312,7 +320,11 @@ def write_export(
         raise ValueError(f"--bake is for USD; leave it out, or say --to usd instead of {to}")
     if open_instances and not bake:
         raise ValueError("--open-instances goes with --bake, as the source stays as it is otherwise")
+    if scenario is not None and to != "epanet":
+        raise ValueError(f"--scenario is for epanet; leave it out with {to}")
     form = (_OPENED if open_instances else _BAKED) if bake else form
+    if scenario is not None:
+        form = replace(form, write=partial(_write_epanet, scenario=Path(scenario)))
     target = Path(path)
     if form.source == "no":
         if source is not None:
@@ -369,5 +381,9 @@ def _place(form: Format, path: Path, source: Path | None) -> Path:
     file = Path(form.file)
     if source is not None and form.copied_as:
         file = file.with_suffix(form.copied_as[source.suffix.lower()])
-    names_file = path.suffix.lower() in (file.suffix, *form.also) and not path.is_dir()
-    return path if names_file else path / file
+    endings = (file.suffix, *form.also)
+    if path.is_dir() or path.suffix.lower() not in (*endings, *_OTHER_FILES):
+        return path / file
+    if path.suffix.lower() not in endings:
+        raise ValueError(f"{path}: {form.name} is written as {' or '.join(endings)}; give such a file, or a folder")
+    return path

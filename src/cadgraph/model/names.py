@@ -16,6 +16,7 @@ _NEAR = 3  # names offered where one is not found
 _ALIKE = 0.6  # least likeness of these, as difflib has it by default
 _MOST_TOLD = 8  # tags that an error names
 _FUNCTIONAL = (Unit, Junction, Terminal)
+_LINE = re.compile(r"L-?\d{4}", re.IGNORECASE)  # the number of a line in the line list, which is no node
 
 
 class Names:
@@ -84,6 +85,8 @@ class Names:
 
     def _hint(self, which: str, layers: tuple[type[Node], ...]) -> str:
         """What may have been meant, else what there is."""
+        if _LINE.fullmatch(which.strip()) and layers != (Part,):
+            return "lines are numbered so: 'cadgraph lines' says what each joins and runs through; name one of these"
         names = {loose_tag(name): name for name in self._suggested(layers)}
         near = [names[key] for key in difflib.get_close_matches(loose_tag(which), names, _NEAR, _ALIKE)]
         if near:

@@ -36,6 +36,9 @@ _AROUND = 0.75  # of its diagonal: what is shown round the target
 _LEAST_AROUND = 0.4  # m
 _MOST_TAGS = 16
 _LEAST_SEEN = 0.35  # of what the target alone would fill; below, what stands before it is only hinted at
+_ASLANT = (0.5, -1.0, 0.6)  # where the eye is from what has no meshes
+_FROM_ABOVE = (0.5, -1.0, 1.6)  # likewise from a level, which lies flat
+_SPOT = 2.5  # px, radius of a dot on a level
 _EVERY = 4  # pixels between rays that find out how much of the target is seen
 
 
@@ -103,8 +106,11 @@ class Drawer:
         colors = np.tile(from_hex(BACKDROP), (self.scene.n_meshes, 1))
         colors[near], colors[meshes] = from_hex(_NEIGHBOR), from_hex(RELATION)
         image = self._renderer.picture(camera, Paint(colors, ghosted=hinted))
-        marks = [] if len(meshes) else [Mark(_tuple(points.mean(axis=0)), RELATION)]
-        tags = [Tag(_tuple(points.mean(axis=0)), order.name, RELATION)]
+        middle = points.mean(axis=0)
+        at = _tuple(points[np.linalg.norm(points - middle, axis=1).argmin()] if order.spots else middle)
+        dots = [Mark(_tuple(point), RELATION, _SPOT) for point in points] if order.spots else [Mark(at, RELATION)]
+        marks = [] if len(meshes) else dots
+        tags = [Tag(at, order.name, RELATION)]
         places = [(other.name, self._local(other.point)) for other in order.around]
         shown = [(name, place) for name, place in places if _within(camera, place)]
         tags += [Tag(place, name, _NEIGHBOR) for name, place in shown[:_MOST_TAGS]]
@@ -120,6 +126,7 @@ class Drawer:
             "outside": [name for name, place in places if not _within(camera, place)],
             "untagged": 1 + len(shown) - drawn.tagged,
             "others_faint": hinted is not None,
+            "spots": 0 if len(meshes) else len(order.spots),
         }
         return Picture(page_of([], _told(values), [], 1), values, file.getvalue())
 
@@ -133,6 +140,8 @@ class Drawer:
         """What has to be in the picture: the target's vertices, else the point where it is."""
         if len(meshes):
             return self._renderer.points(meshes)
+        if order.spots:
+            return np.array([self._local(point) for point in order.spots], np.float64)
         if order.point is None:
             raise AskError(f"{order.name} has no triangles in the scene, and no one place; ask for a unit or a part")
         return np.array([self._local(order.point)], np.float64)
@@ -142,10 +151,10 @@ class Drawer:
     ) -> tuple[Camera, npt.NDArray[np.bool_] | None]:
         """A camera that shows the target with its surroundings; and what is only hinted at, if anything has to be."""
         low, high = points.min(axis=0), points.max(axis=0)
-        grown = max(_LEAST_AROUND, _AROUND * float(np.linalg.norm(high - low)))
+        grown = max(_LEAST_AROUND, (_AROUND if len(meshes) else 0.0) * float(np.linalg.norm(high - low)))
         corners = np.array(np.meshgrid(*zip(low - grown, high + grown, strict=True))).reshape(3, -1).T
         if not len(meshes):
-            return frame(corners, (0.5, -1.0, 0.6), SIZE), None
+            return frame(corners, _FROM_ABOVE if len(points) > 1 else _ASLANT, SIZE), None
         aspect = SIZE[0] / SIZE[1]
         camera = frame(corners, three_quarter_view(self._renderer, meshes, aspect=aspect), SIZE)
         if self._share_seen(camera, meshes) >= _LEAST_SEEN:
@@ -182,6 +191,8 @@ def _told(values: Mapping[str, Any]) -> list[str]:
         lines.append(f"In blue, with tags: {_listed(values['neighbors'])}.")
     if values["untagged"] > 0:
         lines.append(f"{values['untagged']} tag{'s' * (values['untagged'] != 1)} found no room.")
+    if values["spots"]:
+        lines.append("Red dots: where one can stand, over all that stands before them.")
     if values["outside"]:
         lines.append(f"Outside the picture: {_listed(values['outside'])}.")
     if values["others_faint"]:

@@ -47,6 +47,7 @@ class Order:
         meshes: source paths of its meshes.
         near: source paths of the meshes of its neighbours.
         around: its neighbours, the next first.
+        spots: where one can stand on it [m], of a level without meshes.
     """
 
     name: str
@@ -54,3 +55,4 @@ class Order:
     meshes: tuple[str, ...]
     near: tuple[str, ...]
     around: tuple[Tagged, ...]
+    spots: tuple[Point, ...] = ()
