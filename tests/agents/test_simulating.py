@@ -7,7 +7,7 @@ from cadgraph.agents.tools import tool_named
 from cadgraph.hydraulics.balance import default_scenario
 from cadgraph.hydraulics.scenario_file import write_scenario
 from cadgraph.hydraulics.settings import SCENARIO
-from networks import chain, network, pumping, terminal, unit
+from networks import chain, junction, network, pumping, terminal, unit
 
 
 def what_if(graph, folder, close, **more):
@@ -56,6 +56,17 @@ def test_where_both_disagree_it_is_said(tmp_path):
     assert any(
         line.startswith("DISAGREE\tthe graph says that G-001 is cut off, but") for line in answer.text.split("\n")
     )
+
+
+def test_a_pump_against_shut_valves_whose_relief_valve_opens_is_a_disagreement(tmp_path):
+    nodes = [terminal(1), unit("P-001", ports=("N1", "N2")), junction(1), unit("V-001", "relief valve", ports=("N1",))]
+    ways = chain("X1 P-001.N1", length=1) + chain("P-001.N2 J1 V-002 X2", length=1) + chain("J1 V-001.N1", length=1)
+    graph = network([*nodes, unit("V-002", "gate valve"), terminal(2)], ways)
+    write_scenario(default_scenario(graph), tmp_path)
+    answer = what_if(graph, tmp_path, "V-002")
+    assert [one["tag"] for one in answer.values["dead_headed"]] == ["P-001"]
+    (told,) = answer.values["simulated"]["disagreements"]
+    assert told.startswith("the graph says that P-001 pumps against shut valves, but")
 
 
 def test_a_scenario_that_can_not_be_used_leaves_the_answer_of_the_graph(folder):

@@ -11,6 +11,7 @@ from cadgraph.export import export_graph
 from cadgraph.export.dexpi import read_dexpi, write_dexpi
 from cadgraph.model.records import Connected, Junction, Terminal
 from cadgraph.query import find_isolation, find_lines, trace
+from cadgraph.query.compare import compare
 from cadgraph.query.text import isolation_values, line_values, trace_values
 from networks import chain, junction, network, pumping, terminal, unit
 
@@ -124,6 +125,18 @@ def test_a_change_of_size_at_a_gauge_is_a_reducer(tmp_path):
     nodes = [unit("T-001"), unit("G-001"), unit("P-001")]
     graph = network(nodes, chain("T-001 G-001", 80) + chain("G-001 P-001", 50))
     assert listed(there_and_back(graph, tmp_path)) == listed(graph)
+
+
+def test_a_valve_on_the_side_of_a_run_is_written_on_a_branch_of_its_own(tmp_path, schema):
+    graph = made(("T-001.N1 G-001 V-001.N1 V-002 P-001.N1",), [("V-001", "relief valve"), ("V-002", "gate valve")])
+    back = there_and_back(graph, tmp_path)
+    schema.validate(tmp_path / "plant.xml")
+    (tee,) = back.of_layer(Junction)
+    assert {unit.tag for unit in back.units()} == {"T-001", "G-001", "V-001", "V-002", "P-001"}
+    assert {edge.source for edge in back.of_kind(Connected) if edge.target == "unit-V-001"} == {tee.id}
+    assert compare(graph, back).agrees
+    in_series = made(("T-001.N1 G-001 V-001 V-002 P-001.N1",), [("V-001", "relief valve"), ("V-002", "gate valve")])
+    assert not compare(graph, in_series).agrees
 
 
 def test_unconnected_units_are_not_lost(tmp_path, schema):

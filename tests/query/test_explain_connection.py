@@ -61,6 +61,18 @@ def test_the_way_back_has_the_same_joints_in_the_other_order():
     assert told(back.joints) == [(far, near) for near, far in told(there.joints)][::-1]
 
 
+def test_a_gauge_that_stands_in_the_run_makes_no_way_up_and_down_its_leg():
+    parts = [graphs.part(k, f"/{name}", id=name) for k, name in enumerate(["t", "a", "boss", "g", "x"])]
+    of = {"T-001": "t", "G-001": "g", "V-001": "x"}
+    nodes = [unit(tag).model_copy(update={"parts": (part,)}) for tag, part in of.items()]
+    edges = chain("T-001 G-001 V-001", via=("a",))
+    joints = (joint("t", "a"), joint("a", "boss"), joint("boss", "g"), joint("a", "x"))
+    graph = network([*parts, *nodes], edges, joints=joints)
+    assert told(explain_connection(graph, "T-001", "V-001").joints) == [("t", "a"), ("a", "x")]
+    assert told(explain_connection(graph, "T-001", "G-001").joints) == [("t", "a"), ("a", "boss"), ("boss", "g")]
+    assert told(explain_connection(graph, "G-001", "V-001").joints) == [("g", "boss"), ("boss", "a"), ("a", "x")]
+
+
 def test_a_step_for_which_no_joint_is_named_is_counted():
     found = explain_connection(plant(*MADE[1:]), "T-001", "V-001")
     assert told(found.joints) == [("a", "v")]

@@ -79,6 +79,13 @@ def _disagreements(found: WhatIf, before: dict[str, float], after: dict[str, flo
         if not one.why and after[one.place] > _FLOWS:
             flow = after[one.place] * 3600
             yield f"the graph says that {one.name} is cut off, but {flow:.2f} m3/h flow there in the simulation"
+    for one in found.dead_headed:
+        if not one.why and after[one.place] > _FLOWS:
+            flow = after[one.place] * 3600
+            yield (
+                f"the graph says that {one.name} pumps against shut valves, but {flow:.2f} m3/h flow there in the "
+                "simulation"
+            )
     for one in found.still_fed:
         if before[one.place] > _FLOWS >= after[one.place]:
             yield (

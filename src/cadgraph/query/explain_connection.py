@@ -180,7 +180,7 @@ class _Search:
             joints = self._chain(here, there, here | there | through) or self._chain(here, there, None)
             unnamed += not joints
             found += self._told(joints, here)
-        return tuple(dict.fromkeys(found)), unnamed
+        return tuple(_without_detours(found)), unnamed
 
     def _steps(self, first: str, way: Sequence[Arc]) -> Iterator[tuple[set[str], set[str], set[str]]]:
         """From each part on the way to the next: the parts here, those there, and those that may lie between."""
@@ -286,6 +286,18 @@ class _Search:
 
     def _joins(self, edge: Adjacent, first: int, last: int) -> bool:
         return {self._pieces[edge.source], self._pieces[edge.target]} == {first, last}
+
+
+def _without_detours(joints: Iterable[ToldJoint]) -> list[ToldJoint]:
+    """Joints without those that only lead aside and back, as up and down the leg of a gauge that stands in the run."""
+    kept: list[ToldJoint] = []
+    for joint in joints:
+        kept.append(joint)
+        met = [number for number, earlier in enumerate(kept) if joint.far in (earlier.near, earlier.far)]
+        if met[0] < len(kept) - 1:
+            been = met[0] + (kept[met[0]].far == joint.far)
+            del kept[been:]
+    return kept
 
 
 def _nearest_boxes(first: Sequence[Part], last: Sequence[Part]) -> Nearest:

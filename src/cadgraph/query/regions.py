@@ -55,11 +55,15 @@ def _region(network: Network, first: Arc, dividing: Collection[str], seen: set[i
     seen.add(first.index)
     while waiting:
         arc = waiting.pop()
+        known = arc.start in ends or arc.start in inside
         if arc.start in dividing:
             ends.add(arc.start)
             touching.append(arc)
-        elif arc.start not in inside:
+        else:
             inside.add(arc.start)
+        # Past a valve that sits on the side of a run the run goes on.
+        passed = arc.start not in dividing or (network.is_valve(arc.start) and network.stands_aside(arc.start))
+        if passed and not known:
             onward = [other for other in network.arcs(arc.start) if other.index not in seen]
             seen.update(other.index for other in onward)
             waiting += [turned for other in onward for turned in (other, other.back)]

@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 
 from cadgraph.cli import main
 from cadgraph.draw.schematic import draw_diagram
+from cadgraph.draw.schematic.plan import plan_systems
 from cadgraph.query import Network
 from networks import chain, junction, network, pumping, terminal, unit
 
@@ -159,6 +160,14 @@ def test_a_change_of_size_in_a_line_is_drawn_as_a_reducer():
     nodes = [unit("T-001"), unit("V-001"), unit("P-001")]
     svg = draw_diagram(network(nodes, chain("T-001 V-001", 80) + chain("V-001 P-001", 50)))
     assert "DN 80 to DN 50" in titles(svg)
+
+
+@pytest.mark.parametrize(("ports", "hangs"), [("V-001.N1", True), ("V-001", False)])
+def test_a_valve_on_the_side_of_a_run_hangs_on_a_branch(ports, hangs):
+    nodes = [unit("T-001"), unit("V-001", "relief valve", ports=("N1",)), unit("P-001")]
+    (row,) = plan_systems(Network(network(nodes, chain(f"T-001 {ports} P-001"))))[0].rows
+    (cell,) = row.cells
+    assert (cell.symbol is None, len(cell.hanging)) == ((True, 1) if hangs else (False, 0))
 
 
 def test_an_unsure_connection_is_dashed():

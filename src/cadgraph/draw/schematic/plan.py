@@ -245,8 +245,8 @@ def _standing(network: Network, place: str, flow: int) -> list[Cell]:
             Cell(None, tuple(symbol_of(network, one, upright=True) for one in chain), None, place)
             for chain in network.tap_chains(place)
         ]
-    if network.is_gauge(place):
-        return [Cell(None, (symbol_of(network, place),), None, place)]
+    if network.is_gauge(place) or network.stands_aside(place):
+        return [Cell(None, (symbol_of(network, place, upright=True),), None, place)]
     return [Cell(symbol_of(network, place, flow=flow), (), None, place)]
 
 

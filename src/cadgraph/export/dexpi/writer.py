@@ -73,6 +73,7 @@ class _Document:
         self.nozzles: dict[tuple[int, bool], _End] = {}  # by connection and the end of it
         self.components: dict[str, ET.Element] = {}  # valves, junctions and ends by the id of the node
         self.rings: set[str] = set()  # where a line begins and ends at the same node
+        self.tees: dict[str, ET.Element] = {}  # that a valve on the side of a run hangs at, by the valve's id
         self.sensed: dict[str, tuple[ET.Element, float]] = {}  # segment of each instrument, and how far along it
 
     def build(self) -> ET.Element:
@@ -88,7 +89,9 @@ class _Document:
                 if self.network.is_tap(arc) and self._begins_tap(arc):
                     self._tap(arc)
         for place in self._sorted(lambda unit: unit.unit_type == "valve"):
-            if place not in self.components:
+            if place in self.tees:
+                self._branch(place)
+            elif place not in self.components:
                 self._component(place, self._segment(self._piping_system(), None))
         for place in self._sorted(lambda unit: unit.unit_type == "gauge"):
             self._instrument(place)
@@ -272,10 +275,13 @@ class _Document:
         add_values(pipe, {"Length": length, "Confidence": _word(arc.edge.confidence), "Flow": own}, custom=True)
 
     def _component(self, place: str, segment: ET.Element) -> None:
-        """A valve, junction or end of a line, in the segment that comes to it first."""
+        """A valve, junction or end of a line, in the segment that comes to it first; of a valve aside its tee."""
         node = self.network.places[place]
         arcs = self._ordered(place)
-        if self.network.is_gauge(place):
+        aside = self.network.is_valve(place) and self.network.stands_aside(place)
+        if aside:
+            term = Term("PipeTee") if len(arcs) == 2 else Term("CustomPipeFitting", f"junction of {len(arcs) + 1}")
+        elif self.network.is_gauge(place):
             term = Term("CustomPipeFitting", INSTRUMENT)
         elif isinstance(node, Unit):
             term = term_of_unit(node)
@@ -283,14 +289,32 @@ class _Document:
             term = term_of_terminal(node)
         else:
             term = Term("PipeTee") if len(arcs) == 3 else Term("CustomPipeFitting", f"junction of {len(arcs)}")
-        tag = node.tag if isinstance(node, Unit) else None
-        item = add_item(segment, "PipingComponent", self.ids, term, tag, node.id)
+        tag = node.tag if isinstance(node, Unit) and not aside else None
+        item = add_item(segment, "PipingComponent", self.ids, term, tag, None if aside else node.id)
         add_values(item, {"PipingComponentName": tag})
         _add_place(item, node.centroid if isinstance(node, Unit) else node.point)
         add_position(item, self.places.spots.get(place))
         flow_in, flow_out = _flows(arcs)
-        add_nodes(item, [_first_size(arc) for arc in arcs] or [None], flow_in, flow_out)
+        sizes = [_first_size(arc) for arc in arcs] or [None]
+        add_nodes(item, [*sizes, None] if aside else sizes, flow_in, flow_out)
         self.components[place] = item
+        if aside:
+            self.tees[place] = item
+
+    def _branch(self, place: str) -> None:
+        """A valve on the side of a run, in a segment of its own that leaves the run at a tee."""
+        node, tee = self.network.places[place], self.tees[place]
+        assert isinstance(node, Unit)
+        segment = self._segment(self._piping_system(), None)
+        item = add_item(segment, "PipingComponent", self.ids, term_of_unit(node), node.tag, node.id)
+        add_values(item, {"PipingComponentName": node.tag})
+        _add_place(item, node.centroid)
+        add_position(item, self.places.spots.get(place))
+        add_nodes(item, [None], 1, None)
+        links: dict[str, str] = {}
+        _set(links, "From", _End(str(tee.get("ID")), len(self.network.arcs(place)) + 1))
+        _set(links, "To", _End(str(item.get("ID")), 1))
+        _connect(segment, links)
 
     def _ordered(self, place: str) -> list[Arc]:
         """The connections of a node in the order of its connection points: what flows in first."""
