@@ -118,7 +118,7 @@ class AskingOptions:
         from cadgraph.labelers.lvlm.setup import Run
 
         mode = "dry" if self.dry_run else "batch" if self.batch else "ask"
-        values = {"mode": mode, "keep_renders": self.keep_renders, "note": _Note(), **more}
+        values = {"mode": mode, "keep_renders": self.keep_renders, "note": _Note(mode), **more}
         if values["mode"] == "ask":
             confirm: Callable[[Any], bool] = functools.partial(_confirmed, progress, self.yes)
         else:
@@ -185,13 +185,14 @@ def asks(command: _F) -> _F:
 
 
 class _Note:
-    """A line every few seconds on how far asking is, and what it has cost."""
+    """A line every few seconds on how far asking is, and what it has cost; none where nobody is asked now."""
 
-    def __init__(self) -> None:
+    def __init__(self, mode: str) -> None:
         self._last = time.monotonic()
+        self._silent = mode != "ask"
 
     def __call__(self, tally: Any) -> None:
-        if time.monotonic() - self._last < _EVERY:
+        if self._silent or time.monotonic() - self._last < _EVERY:
             return
         self._last = time.monotonic()
         done = tally.asked + tally.known

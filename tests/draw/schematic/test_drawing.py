@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 
 from cadgraph.cli import main
 from cadgraph.draw.schematic import draw_diagram
+from cadgraph.draw.schematic.layout import lay_out
 from cadgraph.draw.schematic.plan import plan_systems
 from cadgraph.query import Network
 from networks import chain, junction, network, pumping, terminal, unit
@@ -168,6 +169,20 @@ def test_a_valve_on_the_side_of_a_run_hangs_on_a_branch(ports, hangs):
     (row,) = plan_systems(Network(network(nodes, chain(f"T-001 {ports} P-001"))))[0].rows
     (cell,) = row.cells
     assert (cell.symbol is None, len(cell.hanging)) == ((True, 1) if hangs else (False, 0))
+
+
+def test_a_pump_discharges_at_its_right_even_where_the_line_leads_back():
+    nodes = [unit("T-001", ports=("N1", "N2")), unit("P-001", ports=("N1", "N2")), unit("V-001", "gate valve")]
+    graph = network(nodes, chain("T-001.N1 P-001.N1") + chain("P-001.N2 V-001 T-001.N2"))
+    placed = lay_out(plan_systems(Network(graph))[0])
+    pump = next(i for i, anchor in enumerate(placed.sketch.anchors) if anchor.place == "unit-P-001")
+    x, _ = placed.anchors[pump]
+    sides = {
+        edge.port: way[0][0] > x
+        for edge, way in zip(placed.sketch.edges, placed.ways, strict=True)
+        if edge.anchor == pump
+    }
+    assert sides == {"N1": False, "N2": True}
 
 
 def test_an_unsure_connection_is_dashed():

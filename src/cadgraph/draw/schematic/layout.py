@@ -155,6 +155,8 @@ def _ports(sketch: Sketch, edge: Edge) -> dict[str, Any]:
     ports: dict[str, Any] = {there: _middle(sides[1])}
     if sketch.anchors[edge.anchor].symbol.form in ("pump", "valve", "instrument", "open", "end", "blind", *_IN_LINE):
         ports[here] = _middle(sides[0])
+    if sketch.anchors[edge.anchor].symbol.form == "pump" and edge.flow:
+        ports[here] = _middle("right" if edge.flow == "out" else "left")
     return ports
 
 
