@@ -11,7 +11,7 @@ from rich.markup import escape
 
 from cadgraph.cli.application import app
 from cadgraph.cli.options import WhoOption, WhyOption
-from cadgraph.cli.screen import bars, out, say_json, tell_lost, tell_state
+from cadgraph.cli.screen import bars, out, say_json, tell_consequences, tell_lost, tell_state
 
 if TYPE_CHECKING:
     from cadgraph.model.graph import SceneGraph
@@ -107,6 +107,8 @@ def correct(
         out.print(f"[dim]{part.id:<12}[/]{escape(said)}")
     if len(done.changed) > _SHOWN:
         out.print(f"{len(done.changed) - _SHOWN:,} more are not shown")
+    # The message has all of it but what disagrees, within its sentence; undone and redone it has none of it.
+    tell_consequences([one for one in done.consequences if one not in done.message])
     tell_lost(done.lost)
     tell_state(done.outcome.earlier, done.outcome.removed)
 

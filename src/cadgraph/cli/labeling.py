@@ -23,7 +23,7 @@ from cadgraph.cli.options import (
     WhyOption,
     settings_of,
 )
-from cadgraph.cli.screen import bars, err, out, say_json, tell_lost, tell_state
+from cadgraph.cli.screen import bars, err, out, say_json, tell_consequences, tell_lost, tell_state
 
 catalogs = typer.Typer(no_args_is_help=True, help="Catalogues of your own parts: add to one, list it.")
 app.add_typer(catalogs, name="catalog")
@@ -115,8 +115,9 @@ def relabel(
         out.print(f"[dim]{p.id:<12}[/]{escape(_said(p))}{escape(f': {why}') if why else ''}")
     more = f", {len(others) - _SHOWN} of them not shown" if len(others) > _SHOWN else ""
     out.print(f"{len(others):,} other parts changed{more}")
-    if done.renamed:
-        out.print(f"[yellow]{escape(done.renamed)}[/]")
+    tell_consequences(done.consequences, done.renamed)
+    if others and done.consequences and not this_only and not forget:
+        out.print("[dim]with --this-only all other parts keep their labels[/]")
     tell_lost(done.lost)
     tell_state(done.outcome.earlier, done.outcome.removed)
 

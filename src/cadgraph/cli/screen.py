@@ -184,6 +184,12 @@ def tell_state(earlier: Sequence[str], removed: Sequence[str] = (), changed: Seq
             out.print(f"[dim]{'mind':<15}[/]{', '.join(names)}: {what}; {', '.join(remedies)}")
 
 
+def tell_consequences(consequences: Sequence[str], renamed: str = "") -> None:
+    """Says what a correction did to units and flow, which nobody may have meant."""
+    for message in filter(None, (*consequences, renamed)):
+        out.print(f"[yellow]{escape(message)}[/]")
+
+
 def tell_lost(lost: Sequence[str]) -> None:
     """Names the corrections in force that don't fit the graph any more."""
     for message in lost:

@@ -25,13 +25,14 @@ from cadgraph.model.scene import Floats, Ints, Scene
 __all__ = ["apply_corrections", "prepare_corrections"]
 
 # How far a correction reaches among kin, as distance of unit vectors (0 the same, 1.41 nothing in common), and how many
-# times as far that may be as the nearest part with another label: for a part that nobody was sure about; one with the
-# label that the corrected parts had, too; any other. Ours, measured on kinds of parts that a network had not learnt, in
-# generated plants; see docs/catalog.md.
-CONFUSED, SURE = (0.5, 0.9), (0.3, 0.7)
+# times as far that may be as the nearest part with another label: for a part whose label is only likely; one with the
+# label that the corrected parts had, too; any other. Ours, measured by correcting what the network has wrong in plants
+# of all kinds of devices and in real ones: beyond this more is spoilt than mended; see docs/catalog.md.
+LIKELY, CONFUSED, SURE = (0.2, 1.2), (0.3, 0.9), (0.2, 0.7)
+_KNOWN = 0.95  # confidence from which on a part with the label that the corrected parts had counts as any other
+# Parts without a label are reached as far as corrected parts of one label lie apart, times this, within these bounds; a
+# single correction reaches as far as the last number says.
 _OPEN_SHARE = 1.2
-# Parts that nobody was sure about are reached as far as corrected parts of one label lie apart, times this, within
-# these bounds; a single correction reaches as far as the last number says.
 _SPREAD, _LEAST_OPEN, _MOST_OPEN, _ALONE = 1.5, 0.5, 0.85, 0.6
 _SETTLED = frozenset({"author", "human", "catalog"})
 _KIN_CONFIDENCE = 0.9  # of the closest kin
@@ -167,26 +168,33 @@ class _Spread:
         reaches = {label: self._reach(space, label) for label in confused}
         rivals = self._rivals()
         against = {label: self._against(label, wrong, rivals) for label, wrong in confused.items()}
+        against_known = {label: self._against(label, (), rivals) for label in confused}
         chosen = []
         far = cdist(space[open_parts], space[[s.part for s in self._sources]])
         for part, number, near in zip(open_parts, far.argmin(axis=1).tolist(), far.min(axis=1).tolist(), strict=True):
             source = self._sources[number]
             wrong = confused[source.group, source.name]
             old = self.before[part]
-            # What is only likely is as open to a correction as what has no label.
-            label = (old.group, old.name) if old is not None and not old.likely else None
-            if label == (source.group, source.name):
+            if old is not None and not old.likely and old.said == (source.group, source.name):
                 continue
-            widest = reaches[source.group, source.name]
-            reach, share = (widest, _OPEN_SHARE) if label is None else CONFUSED if label in wrong else SURE
-            if near > min(reach, widest):
-                continue
-            if not self._is_contested(contacts, part, against[source.group, source.name], near / share):
+            known = old is not None and old.said in wrong and old.confidence >= _KNOWN
+            reach, share = self._openness(old, wrong, known, reaches[source.group, source.name])
+            rival = (against_known if known else against)[source.group, source.name]
+            if near <= reach and not self._is_contested(contacts, part, rival, near / share):
                 chosen.append((part, source, near))
         for part, source, near in chosen:
             alike = 1.0 - near**2 / 2  # the cosine
             confidence = _KIN_CONFIDENCE * alike
             self._take(part, source, confidence, f"much like it ({alike:.0%})", "kin", {"similarity": round(alike, 4)})
+
+    def _openness(
+        self, old: Label | None, wrong: Collection[tuple[str, str | None]], known: bool, widest: float
+    ) -> tuple[float, float]:
+        """How far a correction may be from a part to reach it, and how many times as far as another label."""
+        if old is None:
+            return widest, _OPEN_SHARE
+        reach, share = LIKELY if old.likely else CONFUSED if old.said in wrong and not known else SURE
+        return min(reach, widest), share
 
     def _confused(self) -> dict[tuple[str, str | None], set[tuple[str, str | None]]]:
         """By what a user said: what those parts were called before."""

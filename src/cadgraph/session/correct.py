@@ -21,9 +21,12 @@ from cadgraph.session.requests import EditRequest
 from cadgraph.session.run import Clock, Outcome, stage_graph, write_rest
 from cadgraph.session.session import Change, Session, changed_parts
 from cadgraph.session.source import find_source
-from cadgraph.session.told import tell_renamed
+from cadgraph.session.told import tell_flow, tell_renamed, tell_units
 
 __all__ = ["Amendment", "amend", "apply_edits", "step_back_or_forth"]
+
+
+_DISAGREE = ("flow-contradiction", "flow-disagrees")
 
 
 @dataclass(frozen=True)
@@ -37,6 +40,8 @@ class Amendment:
         message: what was done, in words.
         lost: the corrections in force that don't fit the graph, in words.
         renamed: units of the same parts that have another tag than before, in words.
+        consequences: types of unit of which there are more or fewer than before, flow that turned or isn't known any
+            more, and reasons for it that newly disagree, in words.
     """
 
     outcome: Outcome
@@ -45,6 +50,7 @@ class Amendment:
     message: str = ""
     lost: tuple[str, ...] = ()
     renamed: str = ""
+    consequences: tuple[str, ...] = ()
 
 
 def amend(
@@ -194,4 +200,11 @@ def _changed(
         done.message,
         session.lost,
         tell_renamed(before, outcome.graph),
+        _consequences(before, outcome.graph),
     )
+
+
+def _consequences(before: SceneGraph, now: SceneGraph) -> tuple[str, ...]:
+    known = {note.message for note in before.diagnostics}
+    against = [note.message for note in now.diagnostics if note.code in _DISAGREE and note.message not in known]
+    return tuple(filter(None, (tell_units(before, now), tell_flow(before, now), *against)))

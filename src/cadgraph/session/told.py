@@ -1,17 +1,20 @@
-"""What came of a correction, in words: which parts follow it, and which units are called otherwise."""
+"""What came of a correction, in words: parts that follow it, units that come, go or are renamed, flow that turns."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections import Counter
+from collections.abc import Collection, Mapping, Sequence
 
 from cadgraph._io.text import natural_key
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.labels import CorrectedEvidence
-from cadgraph.model.records import Part
+from cadgraph.model.records import Connected, Junction, Part, Terminal, Unit
 
-__all__ = ["tell_followers", "tell_renamed"]
+__all__ = ["tell_flow", "tell_followers", "tell_renamed", "tell_units"]
 
 _MOST_RUNS = 3  # runs of tags that are told one by one
+_MOST_TURNED = 3  # connections that are told one by one
+_Key = frozenset[object]
 
 
 def tell_followers(named: Sequence[Part], changed: Sequence[Part]) -> str:
@@ -58,6 +61,72 @@ def tell_renamed(before: SceneGraph, now: SceneGraph, given: Collection[str] = (
     told = [_tell_run(run) for run in runs[:_MOST_RUNS]]
     rest = sum(map(len, runs[_MOST_RUNS:]))
     return "; ".join([*told, *([f"{rest} more tags change"] if rest else [])])
+
+
+def tell_units(before: SceneGraph, now: SceneGraph) -> str:
+    """Of which types of unit there are more or fewer than before; empty where there are as many.
+
+    Args:
+        before: a graph.
+        now: one of the same scene.
+    """
+    old, new = (Counter(unit.unit_type for unit in graph.units()) for graph in (before, now))
+    told = [f"{old[kind]:,} {kind}{'s' * (old[kind] != 1)} before, {new[kind]:,} now" for kind in sorted(old | new)
+            if old[kind] != new[kind]]  # fmt: skip
+    return "; ".join(told)
+
+
+def tell_flow(before: SceneGraph, now: SceneGraph) -> str:
+    """Where the flow goes the other way than before, or isn't known any more; empty where it doesn't.
+
+    Args:
+        before: a graph.
+        now: one of the same scene; connections that only one of both has are passed over.
+    """
+    old, new = _flows(before), _flows(now)
+    known = [key for key in new if key in old and old[key] is not None]
+    turned = [new[key] for key in known if new[key] is not None and new[key] != old[key]]
+    names = _names(now)
+    shown = [f"{names[source]} -> {names[target]}" for source, target in filter(None, turned[:_MOST_TURNED])]
+    more = ", ..." if len(turned) > _MOST_TURNED else ""
+    told = [f"the flow turns in {_counted(len(turned))} ({', '.join(shown)}{more})"] if turned else []
+    lost = sum(new[key] is None for key in known)
+    told += [f"which way it flows isn't known any more in {_counted(lost)}"] if lost else []
+    return "; ".join(told)
+
+
+def _counted(count: int) -> str:
+    return f"{count:,} connection{'s' * (count != 1)}"
+
+
+def _flows(graph: SceneGraph) -> Mapping[_Key, tuple[_Key, _Key] | None]:
+    """By what a connection joins and leads through: from where to where it flows, None where nobody knows."""
+    ends = _ends(graph)
+    found: dict[_Key, tuple[_Key, _Key] | None] = {}
+    for edge in graph.of_kind(Connected):
+        way = ends[edge.source], ends[edge.target]
+        key = frozenset((frozenset(way), _meshes(graph, edge.via)))
+        turned = way if edge.direction == "forward" else way[::-1]
+        found[key] = None if edge.direction == "unknown" else turned
+    return found
+
+
+def _ends(graph: SceneGraph) -> dict[str, _Key]:
+    """What each node that lines run between is in any graph of the scene: its parts, and where an end or branch is."""
+    ends: dict[str, _Key] = {}
+    for node in _places(graph):
+        point = tuple(round(c, 2) for c in node.point) if isinstance(node, Junction | Terminal) else None
+        ends[node.id] = frozenset((_meshes(graph, node.parts), point))
+    return ends
+
+
+def _places(graph: SceneGraph) -> list[Unit | Junction | Terminal]:
+    return [*graph.units(), *graph.of_layer(Junction), *graph.of_layer(Terminal)]
+
+
+def _names(graph: SceneGraph) -> Mapping[_Key, str]:
+    tags = {node.id: node.tag if isinstance(node, Unit) else node.id for node in _places(graph)}
+    return {key: tags[place] for place, key in _ends(graph).items()}
 
 
 def _meshes(graph: SceneGraph, parts: Sequence[str]) -> frozenset[str]:
