@@ -125,6 +125,48 @@ def test_no_tank_is_filled_through_a_valve_before_a_blind_end():
     assert found.unknown == found.not_refilled == ()
 
 
+def test_past_a_relief_valve_on_the_side_of_a_run_what_lies_behind_is_fed_all_the_same():
+    nodes = [unit("T-001"), unit("T-002"), junction(1), junction(2), terminal(1)]
+    nodes += [unit(tag, "gate valve") for tag in ("V-001", "V-002")] + [unit("V-003", "relief valve", ports=("N1",))]
+    ways = chain("T-001 V-001 J1") + chain("T-002 V-002 J1") + chain("J1 V-003.N1 J2 X1")
+    found = what_if(network(nodes, ways), "V-001")
+    assert found.unknown == ()
+    assert tags(found.still_fed) == {"V-003", "terminal-001"}
+
+
+def two_pumps_in_a_loop():
+    """X1 feeds the suction header J1 at P-001, to which J2, at P-002, leads; both pumps feed J3, which comes back."""
+    nodes = [terminal(1), *(junction(k) for k in (1, 2, 3, 4)), terminal(2, "blind")]
+    nodes += [unit(tag, ports=("N1", "N2")) for tag in ("P-001", "P-002")]
+    nodes += [unit(tag, "gate valve") for tag in ("V-001", "V-002", "V-003", "V-004")]
+    ways = chain("X1 J1 V-001 P-001.N1") + chain("P-001.N2 J3") + chain("J2 J1") + chain("J2 V-002 P-002.N1")
+    return network(nodes, [*ways, *chain("P-002.N2 J3 V-003 J4 J2"), *chain("J4 V-004 X2")])
+
+
+def test_a_pump_that_a_header_may_feed_the_other_way_is_not_said_to_run_dry():
+    found = what_if(two_pumps_in_a_loop(), "V-001")
+    assert tags(found.cut_off) == {"P-001"}
+    assert {"P-002", "V-002", "V-003"} <= tags(found.unknown)
+    assert not any("P-002" in remark for remark in found.remarks)
+    assert any("may turn" in one.why for one in found.unknown)
+
+
+def test_both_pumps_before_a_shut_valve_are_told_alike():
+    found = what_if(two_pumps_in_a_loop(), "V-003")
+    assert not any("run dry" in remark for remark in found.remarks)
+    assert tags(found.cut_off).isdisjoint({"P-001", "P-002"})
+
+
+def test_what_only_a_blind_pocket_would_fill_stays_cut_off():
+    nodes = [unit("T-001"), unit("T-002"), junction(1), junction(2), unit("P-001", ports=("N1", "N2"))]
+    nodes += [unit("P-002", ports=("N1", "N2")), unit("V-002", "check valve")]
+    nodes += [unit(tag, "gate valve") for tag in ("V-001", "V-003")]
+    ways = chain("T-001 J1 V-001 P-001.N1") + chain("P-001.N2 V-002 V-003 J2 T-002")
+    found = what_if(network(nodes, [*ways, *chain("J1 P-002.N1"), *chain("P-002.N2 J2")]), "V-001")
+    assert tags(found.cut_off) == {"P-001", "V-002", "V-003"}
+    assert found.unknown == ()
+
+
 def test_a_valve_on_the_side_of_a_run_does_not_close_the_run():
     nodes = [
         unit("T-001"),

@@ -261,7 +261,7 @@ def test_a_set_direction_beats_geometry_and_spreads():
         ("V-002", "stated: T-001 -> T-002"),
     }
     change = session.apply([direction(session, "V-002", "V-001")])
-        assert change.message.startswith("it flows from V-002 to V-001; the flow turns in 3 connections")
+    assert change.message.startswith("it flows from V-002 to V-001; the flow turns in 3 connections")
     told = flows(session.graph)
     assert told[frozenset(("V-001", "V-002"))] == ("V-002", "set by a user: V-002 -> V-001")
     assert told[frozenset(("V-001", "T-001"))] == ("V-001", "set by a user: V-002 -> V-001")

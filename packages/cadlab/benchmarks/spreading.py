@@ -24,6 +24,7 @@ from cadgraph.model.truth import Truth
 from cadgraph.session.session import Session
 from cadlab.markdown import table
 from cadplants import make, write_usd
+from cadplants.truth.truth_writer import truth_of
 
 PLANTS = [(style, seed) for seed in (3, 7, 8) for style in ("bim", "game", "mechanical")]
 MOST = 40  # corrections of a plant
@@ -31,19 +32,18 @@ MOST = 40  # corrections of a plant
 Said = tuple[str, str | None]
 
 
-def plants(real: Path | None) -> Iterator[tuple[str, Path, Path]]:
+def plants(real: Path | None) -> Iterator[tuple[str, Path, Truth]]:
     """Name, scene and truth of each plant."""
-    with tempfile.TemporaryDirectory() as folder:
+    with tempfile.TemporaryDirectory() as made:
         for style, seed in PLANTS:
-            scene = Path(folder) / f"{style}-{seed}.usdc"
-            truth = scene.with_suffix(".truth.json")
-            made = make("assortment", seed=seed, style=style)
-            write_usd(made, scene)
-            made.truth.save(truth)
+            scene = Path(made) / f"{style}-{seed}.usdc"
+            plant = make("assortment", seed=seed, style=style)
+            write_usd(plant, scene)
+            truth = Truth.from_json(truth_of(plant))
             yield f"`assortment`, {style}, {seed}", scene, truth
-    for plant in sorted(real.iterdir()) if real else ():
-        if (plant / "scene.usdc").exists():
-            yield plant.name, plant / "scene.usdc", plant / "scene.truth.json"
+    for folder in sorted(real.iterdir()) if real else ():
+        if (folder / "scene.usdc").exists():
+            yield folder.name, folder / "scene.usdc", Truth.load(folder / "scene.truth.json")
 
 
 def said(part: Part) -> Said | None:
@@ -51,9 +51,9 @@ def said(part: Part) -> Said | None:
     return None if part.label is None else part.label.said
 
 
-def row(name: str, scene: Path, truth: Path) -> tuple[list[str], Counter[str]]:
+def row(name: str, scene: Path, truth: Truth) -> tuple[list[str], Counter[str]]:
     """One line of the table, and its counts."""
-    true = {mesh.mesh: (mesh.group, mesh.name) for mesh in Truth.load(truth).meshes if mesh.name is not None}
+    true = {mesh.mesh: (mesh.group, mesh.name) for mesh in truth.meshes if mesh.name is not None}
     session = Session.start(cadgraph.load(scene))
     before = {part.id: part for part in session.graph.parts()}
     right = {p.id: next((true[mesh] for mesh in p.meshes if mesh in true), None) for p in before.values()}

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
+
+import networkx
 
 from cadgraph._io.text import tag_key
 from cadgraph.errors import Unconnected
@@ -24,6 +27,8 @@ _NOT_SHUT: Mapping[Duty, str] = {
     "other": "is of a kind that isn't known to shut off",
     "unknown": "is of unknown kind: it may be a check valve, which nobody shuts",
 }
+_TURNS = "the ways left to it go against the flow as it was, which may turn in a loop or header"
+_ROUND = "a pump may still drive it round a loop that nothing feeds"
 _FILLED = "filled through them before; whether the ways left to it fill it, nobody knows"
 
 
@@ -52,7 +57,8 @@ class WhatIf:
         closed: tags of the valves that are taken for shut.
         sources: tags of what feeds the network, by tag.
         cut_off: units and ends with no way left from any source but against a known flow, by tag; ``why`` names the
-            closed valves that it depends on, as nobody knows whether these can be shut.
+            closed valves that it depends on, as nobody knows whether these can be shut. What is left against the flow
+            along loops and headers, where it may turn, is unknown.
         unknown: units and ends behind the valves that may be cut off or not, and tanks that may be refilled or not.
         still_fed: units and ends behind the valves to which a way of known direction leads from a source all the same.
         not_refilled: tanks that count as sources and that nothing else flows to any more; ``why`` likewise.
@@ -155,9 +161,12 @@ class _Closing:
         surely_fed = self._reach(self.sure_sources, self.barriers, self._surely_follows)
         behind = self._behind() - set(self.closed)
         cut = before - after - set(self.closed)
+        turned = self._where_flow_turns(cut, after)
+        driven = (cut - turned) & self._driven_round(cut)
+        cut -= turned | driven
         doubted = [self.network.name(place) for place in self.unsure if place in self.barriers]
         depends = f"only if {' and '.join(doubted)} really shuts"
-        open_ones = (behind - cut) - surely_fed - set(self.sure_sources)
+        open_ones = (behind - cut) - surely_fed - set(self.sure_sources) - turned - driven
         # Through a valve on the way to a blind end nothing is filled.
         filled = self._behind(lambda arc: self._follows(arc) and not self.network.is_dead(arc))
         not_refilled, perhaps_filled = self._not_refilled(filled, self.barriers)
@@ -169,6 +178,8 @@ class _Closing:
             cut_off=tuple(self._told(p, depends if p in after_for_sure else "") for p in self._by_tag(cut)),
             unknown=(
                 *(self._told(p, self._why_open(p in before, p in loosely_fed)) for p in self._by_tag(open_ones)),
+                *(self._told(p, _TURNS) for p in self._by_tag(turned)),
+                *(self._told(p, _ROUND) for p in self._by_tag(driven)),
                 *(self._told(p, _FILLED) for p in self._by_tag(perhaps_filled)),
             ),
             still_fed=tuple(self._told(p) for p in self._by_tag((behind & surely_fed) - set(self.sources))),
@@ -235,9 +246,62 @@ class _Closing:
     def _follows(self, arc: Arc) -> bool:
         return arc.flow != "against" or self.network.is_tap(arc)
 
+    def _may_follow(self, arc: Arc) -> bool:
+        """Whether something may flow along a connection, be it that the flow turns there."""
+        if self._follows(arc):
+            return True
+        return arc.index in self._meshed and not (self._one_way(arc.start) or self._one_way(arc.end))
+
+    def _where_flow_turns(self, cut: Collection[str], fed: Collection[str]) -> set[str]:
+        """Of what is cut off, what may be fed against the flow as it was, and not only filled as a blind end is."""
+        reached = self._reach(self.sources, self.barriers, self._may_follow).intersection(cut)
+        found: set[str] = set()
+        while reached:
+            piece = self._reach((next(iter(reached)),), (), lambda arc: arc.end in reached)  # noqa: B023
+            reached -= piece
+            ways = [arc for place in piece for arc in self.network.arcs(place) if arc.end in fed]
+            if len(ways) > 1 or any(self._lets_out(place) for place in piece):
+                found |= piece
+        return found
+
+    def _lets_out(self, place: str) -> bool:
+        node = self.network.places[place]
+        open_end = isinstance(node, Terminal) and node.kind != "blind"
+        return open_end or self.network.unit_type(place) in ("tank", "pump")
+
+    def _one_way(self, place: str) -> bool:
+        return self.network.unit_type(place) == "pump" or duty_of(self.network, place) == "check"
+
+    @cached_property
+    def _meshed(self) -> frozenset[int]:
+        """The connections in loops, where which way it flows depends on what else is open; tanks divide loops."""
+        joined: networkx.MultiGraph[str] = networkx.MultiGraph()
+        numbers: dict[frozenset[str], list[int]] = {}
+        for place in self.network.places:
+            for arc in self.network.arcs(place):
+                if arc.forward:
+                    ends = [f"{end} {arc.index}" if self.network.unit_type(end) == "tank" else end
+                            for end in (arc.start, arc.end)]  # fmt: skip
+                    joined.add_edge(*ends)
+                    numbers.setdefault(frozenset(ends), []).append(arc.index)
+        bridges = {index for ends in networkx.bridges(joined) for index in numbers[frozenset(ends)]}
+        return frozenset(index for found in numbers.values() for index in found).difference(bridges)
+
+    def _driven_round(self, cut: Collection[str]) -> set[str]:
+        """What lies in a loop with a pump, all along known flow, that no closed valve divides."""
+        found: set[str] = set()
+        for pump in (place for place in cut if self.network.unit_type(place) == "pump"):
+            for arc in self.network.arcs(pump):
+                if arc.flow != "along" or arc.end in self.barriers:
+                    continue
+                ahead = self._reach((arc.end,), self.barriers)
+                if pump in ahead:
+                    found |= {place for place in ahead if pump in self._reach((place,), self.barriers)}
+        return found
+
     def _surely_follows(self, arc: Arc) -> bool:
-        # Through a relief valve nothing flows as a rule, so that nothing counts as fed through one.
-        if duty_of(self.network, arc.start) == "relief":
+        # Through a relief valve nothing flows as a rule, so that nothing counts as fed through one; past it, it does.
+        if duty_of(self.network, arc.start) == "relief" and not self.network.stands_aside(arc.start):
             return False
         return arc.flow == "along" or self.network.is_tap(arc) or self.network.is_dead(arc)
 
@@ -289,11 +353,8 @@ class _Closing:
 
     def _delivers(self, pump: str, blocked: Collection[str]) -> bool:
         """Whether a pump has a way to a tank or an end."""
-        return any(
-            (isinstance(node := self.network.places[place], Terminal) and node.kind != "blind")
-            or self.network.unit_type(place) == "tank"
-            for place in self._reach((pump,), blocked)
-        )
+        ahead = self._reach((pump,), blocked)
+        return any(self._lets_out(place) and self.network.unit_type(place) != "pump" for place in ahead)
 
     def _doubts(self, cut: Collection[str]) -> tuple[Doubt, ...]:
         pieces = [place for place in self.network.places if place in cut]
