@@ -79,8 +79,11 @@ def test_an_export_goes_by_the_scenario_beside_it_and_says_so(tmp_path):
     assert anew.notes[0].message.endswith("all of it supposed anew")
     write_scenario(plant.scenario.model_copy(update={"pumps": pumps}), tmp_path)
     stopped = write_export(graph, "epanet", tmp_path)
-    assert " P-001\tClosed" not in running
-    assert " P-001\tClosed" in stopped.files[0].read_text(encoding="utf-8")
+    assert "HEAD curve-P-001" in running
+    still = stopped.files[0].read_text(encoding="utf-8")
+    assert "HEAD curve-P-001" not in still
+    assert any(line.startswith(" P-001\t") and "\tTCV\t" in line for line in still.splitlines())
+    assert "pump-open" in [note.code for note in stopped.notes]
     assert "scenario.yaml says" in stopped.notes[0].message
 
 

@@ -44,7 +44,8 @@ def write_epanet(
             where there is one, else the defaults.
 
     Returns:
-        The file, and notes: ``scenario`` (what was supposed), ``relief-shut`` (EPANET has none), ``tank-inlet`` (one
+        The file, and notes: ``scenario`` (what was supposed), ``relief-shut`` (EPANET has none), ``pump-open`` (one that
+        stands still lets pass, which a closed one of EPANET doesn't), ``tank-inlet`` (one
         above the level, written as a reservoir), ``no-source`` (pieces without a known pressure) and ``shut-in``, where
         EPANET makes pressures up.
 
@@ -131,6 +132,10 @@ class InputFile:
         if reliefs:
             names = ", ".join(self.network.name(place) for place in reliefs)
             yield Diagnostic("relief-shut", f"{names}: EPANET has no relief valve, so it is written shut", ())
+        still = [circuit.owner[link] for link in self._of(LinkKind.PUMP) if not condition.one_way[link]]
+        if still:
+            names = ", ".join(self.network.name(place) for place in still)
+            yield Diagnostic("pump-open", f"{names}: stands still, and is written as a valve that lets pass", ())
         for nozzle in circuit.nozzles:
             if condition.one_way[nozzle.link]:
                 text = f"{nozzle.tag}.{nozzle.port} lies above the level: written as a reservoir at its height"
@@ -212,13 +217,18 @@ class InputFile:
 
     def _pumps(self) -> Iterator[str]:
         circuit = self.balance.circuit
-        for link in self._of(LinkKind.PUMP):
+        for link in self._running():
             speed = self.balance.speed[self.network.name(circuit.owner[link])]
-            yield f" {self.links[link]}\t{self._ends(link)}\tHEAD curve-{self.links[link]}\tSPEED {speed or 1.0:g}"
+            yield f" {self.links[link]}\t{self._ends(link)}\tHEAD curve-{self.links[link]}\tSPEED {speed:g}"
+
+    def _running(self) -> list[int]:
+        """The pumps that run; one that stands still lets pass either way here, which a closed one of EPANET doesn't."""
+        return [link for link in self._of(LinkKind.PUMP) if self.condition.one_way[link]]
 
     def _valves(self) -> Iterator[str]:
         circuit = self.balance.circuit
-        for link in self._of(LinkKind.VALVE, LinkKind.THROUGH, LinkKind.NOZZLE):
+        standing = [link for link in self._of(LinkKind.PUMP) if not self.condition.one_way[link]]
+        for link in [*self._of(LinkKind.VALVE, LinkKind.THROUGH, LinkKind.NOZZLE), *standing]:
             if not self._is_stub(link):
                 loss = self._coefficient(link)
                 yield (
@@ -227,12 +237,12 @@ class InputFile:
 
     def _curves(self) -> Iterator[str]:
         circuit = self.balance.circuit
-        for link in self._of(LinkKind.PUMP):
+        for link in self._running():
             pump = self.balance.scenario.pumps[self.network.name(circuit.owner[link])]
             yield f" curve-{self.links[link]}\t{pump.flow:.6f}\t{pump.head:.6f}"
 
     def _status(self) -> Iterator[str]:
-        for link in self._of(LinkKind.VALVE, LinkKind.PUMP):
+        for link in self._of(LinkKind.VALVE):
             if self.condition.shut[link] and not self._is_stub(link):
                 yield f" {self.links[link]}\tClosed"
 

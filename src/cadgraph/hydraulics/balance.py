@@ -20,7 +20,7 @@ __all__ = ["LEAST", "SHUT", "STILL", "Balance", "complete", "default_scenario", 
 Floats = npt.NDArray[np.float64]
 
 SHUT = 1e-3
-"""Opening of a valve, or speed of a pump, at and below which nothing passes; ours."""
+"""Opening of a valve at and below which nothing passes, and speed at and below which a pump stands still; ours."""
 STILL = 1e-8  # m3/s
 LEAST = 1e-4  # share of the flow coefficient of a valve that is not shut
 _RATIO = 50.0  # of an equal percentage valve between open and nearly shut; IEC 60534-2-4 allows any, 50 is usual
@@ -167,8 +167,9 @@ class Balance:
                 square[link] /= flow_share(opening, self.hand[tag].characteristic) ** 2
         for tag, speed in self.speed.items():
             for link in circuit.tags.get(tag, ()):
-                shut[link] = speed <= SHUT
-                offset[link] *= speed**2
+                # Through one that stands still it flows either way, against what its curve loses.
+                one_way[link] = speed > SHUT
+                offset[link] *= speed**2 if speed > SHUT else 0.0
         head = self._heads.copy()
         head[circuit.fixed] = circuit.head[circuit.fixed]
         self._to_air = circuit.to_air & ~shut

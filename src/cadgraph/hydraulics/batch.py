@@ -258,8 +258,8 @@ class ProcessBatch:
         for row, tag in enumerate(self.pumps):
             speed = self._speed[row, plants]
             for link in circuit.tags.get(tag, ()):
-                shut[link] = speed <= SHUT
-                offset[link] *= speed**2
+                one_way[link] = speed > SHUT
+                offset[link] *= np.where(speed > SHUT, speed**2, 0.0)
         to_air = circuit.to_air[:, None] & ~shut
         head = self._solution.head[:, plants]
         head[circuit.fixed] = circuit.head[circuit.fixed][:, None]

@@ -139,11 +139,12 @@ class Reach:
         self.pumps = np.flatnonzero(circuit.kind == LinkKind.PUMP)
         self._ends = list(zip(circuit.start.tolist(), circuit.end.tolist(), strict=True))
 
-    def pieces(self, linked: Bools) -> Pieces:
+    def pieces(self, linked: Bools, running: Bools) -> Pieces:
         """What hangs together.
 
         Args:
             linked: ``(n_links, n_plants)`` links over which it does.
+            running: likewise, of pumps whether they run.
         """
         circuit = self.circuit
         nodes = np.arange(len(circuit.nodes))
@@ -162,7 +163,7 @@ class Reach:
         circulating = np.zeros(label.shape, bool)
         for pump in self.pumps[::-1].tolist():
             at = self._ends[pump][0]
-            round_it = linked[pump] & (label[at] >= 0)
+            round_it = linked[pump] & running[pump] & (label[at] >= 0)
             same = round_it & (label == label[at])
             circulating |= same
             # Of several pumps in a piece the first is its pin.
@@ -182,7 +183,7 @@ class Reach:
         self._flood(fed, onward, back)
         for pump in self.pumps.tolist():
             start, end = self._ends[pump]
-            plants = np.flatnonzero(onward[pump] & ~fed[start])
+            plants = np.flatnonzero(onward[pump] & one_way[pump] & ~fed[start])
             if not len(plants):
                 continue
             around = np.zeros((len(fed), len(plants)), bool)
@@ -191,7 +192,7 @@ class Reach:
             round_it = around[start]
             fed[:, plants] |= around & round_it
         starts = self.circuit.start[self.pumps]
-        found: Bools = onward[self.pumps] & ~fed[starts]
+        found: Bools = onward[self.pumps] & one_way[self.pumps] & ~fed[starts]
         return found
 
     def emptied(self, head: Floats, flow: Floats, opened: Bools, to_air: Bools) -> Bools:

@@ -390,7 +390,7 @@ class _Round:
         self.solver, self.circuit = solver, solver.circuit
         self.given, self.now, self.usable, self.turning, self.starved = given, now, usable, turning, starved
         self.let_go, self.lost = let_go, np.zeros(let_go.shape[1], bool)
-        self.choked = now.cavitating & now.open[solver.pumps]
+        self.choked = now.cavitating & now.open[solver.pumps] & given.one_way[solver.pumps]
         self.pieces = self._pieces()
 
     def _linear(self) -> Bools:
@@ -402,7 +402,7 @@ class _Round:
         """What hangs together; pumps stay choked only where both of their sides do with a given head."""
         circuit, pumps = self.circuit, self.solver.pumps
         while True:
-            pieces = self.solver.reach.pieces(self._linear())
+            pieces = self.solver.reach.pieces(self._linear(), self.given.one_way)
             floating = (pieces.label[circuit.start[pumps]] >= 0) | (pieces.label[circuit.end[pumps]] >= 0)
             apart = self.choked & floating
             if not apart.any():
@@ -480,4 +480,4 @@ class _Round:
         with np.errstate(invalid="ignore"):
             fewer = self.choked & ((head[a] - head[b] - loss < -LIFT) | (through < -BACKFLOW))
             thirsty = (through > BACKFLOW) & (head[a] < given.floor[a] - LIFT)
-        return ~self.choked & self.now.open[pumps] & thirsty, fewer
+        return ~self.choked & self.now.open[pumps] & given.one_way[pumps] & thirsty, fewer

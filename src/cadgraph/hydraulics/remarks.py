@@ -46,6 +46,9 @@ def _of_pumps(balance: Balance, cavitating: Collection[str]) -> Iterator[str]:
     for tag, speed in balance.speed.items():
         if speed > SHUT and tag in tags and tag not in cavitating and balance.through(tag) < TRICKLE:
             yield f"{tag} runs against shut valves: nothing flows through it"
+        if speed <= SHUT and tag in tags and abs(balance.through(tag)) > TRICKLE:
+            back = " back" if balance.through(tag) < 0 else ""
+            yield f"{tag} stands still, and {abs(balance.through(tag)) * 3600:.2f} m3/h flow{back} through it"
     for tag, pump in balance.scenario.pumps.items():
         flow = balance.through(tag) * 3600 if tag in tags else 0.0
         if flow > _FAR_OUT * pump.flow:

@@ -176,14 +176,15 @@ class Solver:
         flow = self._first
         if last is not None:
             opened[turning] = last.open[turning]
-            choked = tuple(pump for pump in last.cavitating if opened[pump])
+            choked = tuple(pump for pump in last.cavitating if opened[pump] and condition.one_way[pump])
             flow = last.flow
         let_go: Counter[int] = Counter()
+        running = self._running(condition)
         steps, turned = 0, np.ones_like(opened)
         more: list[int] = []
         fewer: list[int] = []
         for number in range(_MOST_ROUNDS):
-            choked, pieces = self._kept(opened, choked, let_go)
+            choked, pieces = self._kept(opened, choked, let_go, running)
             flow, head, taken, step = self._newton(condition, opened, pieces, flow, choked)
             steps += taken
             if choked and step > STEP and taken >= MOST_STEPS:
@@ -211,11 +212,18 @@ class Solver:
         flow = np.where(np.abs(flow) < LEAST_FLOW, 0.0, flow)
         return Solution(flow, head, opened, shut_in, tuple(sorted(lacking)), steps, step, settled)
 
-    def _kept(self, opened: Bools, choked: Sequence[int], let_go: Counter[int]) -> tuple[tuple[int, ...], _Pieces]:
+    def _running(self, condition: Condition) -> Ints:
+        """The pumps that run; through others it flows either way."""
+        running: Ints = self._pumps[(condition.one_way & ~condition.shut)[self._pumps]]
+        return running
+
+    def _kept(
+        self, opened: Bools, choked: Sequence[int], let_go: Counter[int], running: Ints
+    ) -> tuple[tuple[int, ...], _Pieces]:
         """The pumps that stay choked, as both of their sides hang together with a given head, and the pieces then."""
         kept = tuple(pump for pump in choked if opened[pump])
         while True:
-            pieces = self._pieces(opened, kept)
+            pieces = self._pieces(opened, kept, running)
             apart = [
                 pump
                 for pump in kept
@@ -333,17 +341,17 @@ class Solver:
 
     # What hangs together
 
-    def _pieces(self, opened: Bools, choked: Sequence[int]) -> _Pieces:
+    def _pieces(self, opened: Bools, choked: Sequence[int], running: Ints) -> _Pieces:
         linked = opened.copy()
         linked[list(choked)] = False
-        key = linked.tobytes()
+        key = linked.tobytes() + running.tobytes()
         if key not in self._known_pieces:
             if len(self._known_pieces) > 1000:
                 self._known_pieces.clear()
-            self._known_pieces[key] = self._find_pieces(linked)
+            self._known_pieces[key] = self._find_pieces(linked, running)
         return self._known_pieces[key]
 
-    def _find_pieces(self, linked: Bools) -> _Pieces:
+    def _find_pieces(self, linked: Bools, running: Ints) -> _Pieces:
         circuit, n = self.circuit, len(self.circuit.nodes)
         ground = np.flatnonzero(circuit.fixed)
         # All nodes of given head are one: node n.
@@ -363,7 +371,7 @@ class Solver:
         pins = np.zeros(count, int)
         for node in range(n - 1, -1, -1):
             pins[of_node[node]] = node
-        for pump in self._pumps[linked[self._pumps]][::-1]:
+        for pump in running[linked[running]][::-1]:
             piece = of_node[circuit.start[pump]]
             circulating[piece] = piece > 0
             pins[piece] = circuit.start[pump]
@@ -450,15 +458,15 @@ class Solver:
                         waiting.append(there)
             return seen
 
-        fed = reached(feeding)
+        fed, running = reached(feeding), self._running(condition)
         starved = []
-        for link in self._pumps[~condition.shut[self._pumps]]:
+        for link in running:
             if int(circuit.start[link]) in fed:
                 continue
             around = reached([int(circuit.end[link])])
             if int(circuit.start[link]) in around:
                 fed |= around
-        for link in self._pumps[~condition.shut[self._pumps]]:
+        for link in running:
             if int(circuit.start[link]) not in fed:
                 starved.append(int(link))
         found = np.array(starved, int)
@@ -487,7 +495,7 @@ class Solver:
         circuit = self.circuit
         more, fewer = [], []
         loss = self._loss(condition, flow)[0] if choked else flow
-        for pump in map(int, self._pumps):
+        for pump in map(int, self._running(condition)):
             a, b = int(circuit.start[pump]), int(circuit.end[pump])
             if pump in choked:
                 if head[a] - head[b] - loss[pump] < -LIFT or flow[pump] < -BACKFLOW:

@@ -89,7 +89,7 @@ def _pumps(process: Process) -> Iterator[Standing]:
             continue
         lift = process.balance.difference(tag)
         notes = [] if process.state.speed[tag] > 0 else ["stands still"]
-        notes += [] if lift is None or notes or process.balance.through(tag) <= 0 else [f"{-lift:+.2f} bar"]
+        notes += [] if lift is None or notes else [f"{-lift:+.2f} bar"]
         notes += ["cavitates"] if tag in process.state.cavitating else []
         yield Standing(tag, "pump", process.balance.through(tag) * 3600, "m3/h", ", ".join(notes))
 
