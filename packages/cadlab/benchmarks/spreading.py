@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import argparse
 import random
-import tempfile
 from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
@@ -20,10 +19,11 @@ from _timing import machine
 import cadgraph
 from cadgraph.model.labels import CorrectedEvidence
 from cadgraph.model.records import Part
+from cadgraph.model.scene import Scene
 from cadgraph.model.truth import Truth
 from cadgraph.session.session import Session
 from cadlab.markdown import table
-from cadplants import make, write_usd
+from cadplants import make
 from cadplants.truth.truth_writer import truth_of
 
 PLANTS = [(style, seed) for seed in (3, 7, 8) for style in ("bim", "game", "mechanical")]
@@ -32,18 +32,14 @@ MOST = 40  # corrections of a plant
 Said = tuple[str, str | None]
 
 
-def plants(real: Path | None) -> Iterator[tuple[str, Path, Truth]]:
+def plants(real: Path | None) -> Iterator[tuple[str, Scene, Truth]]:
     """Name, scene and truth of each plant."""
-    with tempfile.TemporaryDirectory() as made:
-        for style, seed in PLANTS:
-            scene = Path(made) / f"{style}-{seed}.usdc"
-            plant = make("assortment", seed=seed, style=style)
-            write_usd(plant, scene)
-            truth = Truth.from_json(truth_of(plant))
-            yield f"`assortment`, {style}, {seed}", scene, truth
+    for style, seed in PLANTS:
+        plant = make("assortment", seed=seed, style=style)
+        yield f"`assortment`, {style}, {seed}", plant.scene(), Truth.from_json(truth_of(plant))
     for folder in sorted(real.iterdir()) if real else ():
         if (folder / "scene.usdc").exists():
-            yield folder.name, folder / "scene.usdc", Truth.load(folder / "scene.truth.json")
+            yield folder.name, cadgraph.load(folder / "scene.usdc"), Truth.load(folder / "scene.truth.json")
 
 
 def said(part: Part) -> Said | None:
@@ -51,10 +47,10 @@ def said(part: Part) -> Said | None:
     return None if part.label is None else part.label.said
 
 
-def row(name: str, scene: Path, truth: Truth) -> tuple[list[str], Counter[str]]:
+def row(name: str, scene: Scene, truth: Truth) -> tuple[list[str], Counter[str]]:
     """One line of the table, and its counts."""
     true = {mesh.mesh: (mesh.group, mesh.name) for mesh in truth.meshes if mesh.name is not None}
-    session = Session.start(cadgraph.load(scene))
+    session = Session.start(scene)
     before = {part.id: part for part in session.graph.parts()}
     right = {p.id: next((true[mesh] for mesh in p.meshes if mesh in true), None) for p in before.values()}
     wrong = [part for part in before.values() if right[part.id] is not None and said(part) != right[part.id]]

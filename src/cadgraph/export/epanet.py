@@ -44,9 +44,8 @@ def write_epanet(
             where there is one, else the defaults.
 
     Returns:
-        The file, and notes: ``scenario`` (what was supposed), ``relief-shut`` (EPANET has none), ``pump-open`` (one that
-        stands still lets pass, which a closed one of EPANET doesn't), ``tank-inlet`` (one
-        above the level, written as a reservoir), ``no-source`` (pieces without a known pressure) and ``shut-in``, where
+        The file, and notes: ``scenario`` (what was supposed), ``relief-shut`` (EPANET has none), ``pump-open`` (one
+        that stands still lets pass, which a closed one of EPANET doesn't), ``tank-inlet`` (one above the level, written as a reservoir), ``no-source`` (pieces without a known pressure) and ``shut-in``, where
         EPANET makes pressures up.
 
     Raises:
