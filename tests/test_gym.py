@@ -101,6 +101,13 @@ def test_a_step_that_can_not_be_is_refused(dt, seconds):
             kind(pumping(), dt=dt, seconds=seconds)
 
 
+def test_an_action_of_another_length_is_refused():
+    env = PlantEnv(pumping())
+    env.reset(seed=1)
+    with pytest.raises(ValueError, match=r"an action has the shape \(\d+,\)"):
+        env.step(np.ones(1, np.float32))
+
+
 def test_many_plants_do_as_one_does():
     options = {"task": ReachReading("G-003", 1.0), "shuffle": False, "dt": 2.0, "seconds": 10.0}
     one, many = PlantEnv(pumping(), **options), PlantVectorEnv(3, pumping(), **options)

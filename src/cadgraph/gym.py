@@ -341,9 +341,12 @@ class PlantEnv(gymnasium.Env[npt.NDArray[np.float32], npt.NDArray[np.float32]]):
 
         Args:
             action: ``(n_valves + n_pumps,)`` from 0 to 1.
+
+        Raises:
+            ValueError: it has another shape, or a number is out of range.
         """
-        values = np.asarray(action, float).tolist()
         tags = (*self._shape.valves, *self._shape.pumps)
+        values = _fitting(action, (len(tags),)).tolist()
         self.process.step(dict(zip(tags, values, strict=True)), self.dt)
         moment = self._moment()
         reward, done, failed = _judged(self.task, moment)
@@ -445,9 +448,13 @@ class PlantVectorEnv(VectorEnv[npt.NDArray[np.float32], npt.NDArray[np.float32],
 
         Args:
             actions: ``(num_envs, n_valves + n_pumps)`` from 0 to 1.
+
+        Raises:
+            ValueError: they have another shape, or a number is out of range.
         """
-        values, anew = np.asarray(actions, float), self._ended.copy()
         n_valves = len(self._shape.valves)
+        values = _fitting(actions, (self.num_envs, n_valves + len(self._shape.pumps)))
+        anew = self._ended.copy()
         self.plants.step(values[:, :n_valves], values[:, n_valves:], self.dt)
         if anew.any():
             self._begin(np.flatnonzero(anew))
@@ -470,6 +477,16 @@ class PlantVectorEnv(VectorEnv[npt.NDArray[np.float32], npt.NDArray[np.float32],
     def _moment(self) -> Moment:
         plants = self.plants
         return Moment(plants.reading, plants.level, plants.flow, plants.shut_in, plants.speed)
+
+
+def _fitting(action: npt.ArrayLike, shape: tuple[int, ...]) -> Floats:
+    """An action as numbers, where it has the shape of one."""
+    values: Floats = np.asarray(action, float)
+    if values.shape != shape:
+        raise ValueError(
+            f"an action has the shape {shape}, a number for each valve, then each pump; not {values.shape}"
+        )
+    return values
 
 
 def _judged(task: Task | None, moment: Moment) -> tuple[Floats, Bools, Bools]:

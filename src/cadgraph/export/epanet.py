@@ -45,8 +45,9 @@ def write_epanet(
 
     Returns:
         The file, and notes: ``scenario`` (what was supposed), ``relief-shut`` (EPANET has none), ``pump-open`` (one
-        that stands still lets pass, which a closed one of EPANET doesn't), ``tank-inlet`` (one above the level, written as a reservoir), ``no-source`` (pieces without a known pressure) and ``shut-in``, where
-        EPANET makes pressures up.
+        that stands still lets pass, which a closed one of EPANET doesn't), ``tank-inlet`` (one above the level,
+        written as a reservoir), ``no-source`` (pieces without a known pressure) and ``shut-in``, where EPANET makes
+        pressures up.
 
     Raises:
         ScenarioError: the scenario can't be used.

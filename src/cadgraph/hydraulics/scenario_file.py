@@ -22,7 +22,16 @@ from cadgraph.errors import ScenarioError, UnknownNode
 from cadgraph.hydraulics.balance import complete
 from cadgraph.hydraulics.network import OUTSIDE, ports_at
 from cadgraph.hydraulics.scenario import guess_end, guess_scenario, guess_valve
-from cadgraph.hydraulics.settings import SCENARIO, EndSetting, Move, Scenario, Setting, ValveSetting
+from cadgraph.hydraulics.settings import (
+    SCENARIO,
+    UNITS,
+    EndSetting,
+    GaugeSetting,
+    Move,
+    Scenario,
+    Setting,
+    ValveSetting,
+)
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Unit
 from cadgraph.query.network import Network
@@ -292,6 +301,9 @@ class _Reading:
             own = guess_valve(self.network, self._unit(name), self._known(place, "duty", given, ValveSetting))
         if given and isinstance(own, EndSetting) and given.get("role", own.role) != own.role:
             own = guess_end(self.network, name, self._known(place, "role", given, EndSetting))
+        if given and isinstance(own, GaugeSetting) and given.get("measures", own.measures) != own.measures:
+            measures = self._known(place, "measures", given, GaugeSetting)
+            own = own.model_copy(update={"measures": measures, "unit": UNITS[measures], "span": None})
         return self._merged(place, own, given)
 
     def _known(self, place: str, field: str, given: Mapping[str, Any], model: type[Setting]) -> Any:
@@ -332,11 +344,27 @@ class _Reading:
             if valve.duty != "hand" and valve.towards not in (ports if len(ports) > 1 else [OUTSIDE]):
                 names = ", ".join(ports if len(ports) > 1 else [OUTSIDE])
                 raise self._fault(f"valves: {tag}", f"towards must be {names}, not {valve.towards!r}")
+            self._check_duty(f"valves: {tag}", valve)
+        for tag, gauge in scenario.gauges.items():
+            if gauge.unit != UNITS[gauge.measures]:
+                fits = UNITS[gauge.measures] or "none"
+                raise self._fault(
+                    f"gauges: {tag}", f"what measures {gauge.measures} has the unit {fits}, not {gauge.unit}"
+                )
         for tag, pump in scenario.pumps.items():
             ports = self._ports(tag)
             wrong = [port for port in pump.suction if port not in ports]
             if wrong:
                 raise self._fault(f"pumps: {tag}", f"it has no port {wrong[0]!r}; there are {', '.join(ports)}")
+
+    def _check_duty(self, place: str, valve: ValveSetting) -> None:
+        """Refuses what a valve of another duty has: who says it supposes that it counts."""
+        if valve.duty != "hand" and valve.opening is not None:
+            raise self._fault(
+                place, f"a {valve.duty} valve moves by itself and has no opening; one that is stuck has the duty hand"
+            )
+        if valve.duty != "relief" and valve.pressure is not None:
+            raise self._fault(place, "pressure is what a relief valve opens at, and its duty is none")
 
     def _ports(self, tag: str) -> list[str]:
         return list(ports_at(self.network, self._unit(tag).id))

@@ -11,6 +11,7 @@ __all__ = [
     "ATMOSPHERE",
     "GRAVITY",
     "SCENARIO",
+    "UNITS",
     "Characteristic",
     "EndRole",
     "EndSetting",
@@ -124,6 +125,10 @@ class TankSetting(Setting):
     area: float = Field(gt=0, le=1e6, description="of the surface, m2")
     bottom: float = Field(ge=-1e5, le=1e5, description="height in the plant, m")
     pressure: float = Field(default=0.0, ge=-1, le=1000, description="above the surface, bar(g)")
+
+
+UNITS: Mapping[str, str | None] = {"pressure": "bar", "flow": "m3/h", "level": "m", "nothing": None}
+"""The unit of what a gauge measures."""
 
 
 class GaugeSetting(Setting):

@@ -16,6 +16,8 @@ from cadgraph.query.network import Network
 __all__ = ["Summary", "connection_between", "connection_words", "end_words", "summarize"]
 
 _GRAVE = frozenset({
+    "broken-chunk", "broken-element", "broken-mesh", "broken-node", "broken-object", "broken-primitive", "cut-short",
+    "damaged-entity", "trailing-bytes", "unbalanced-tree", "unreadable",
     "damaged-source", "invalid-units", "invalid-up-axis", "missing-layer", "missing-payload", "missing-reference",
     "mixed-units", "mixed-up-axis", "outside-asset", "unit-doubt", "unusual-size", "vocabulary-unknown-to-model",
 })  # fmt: skip

@@ -252,6 +252,16 @@ def test_statements_that_contradict_each_other_fall_and_the_others_hold():
     assert weighed.disagreeing
 
 
+@pytest.mark.parametrize(("kind", "flows"), [("open", True), ("blind", False)])
+def test_where_a_branch_of_a_file_ends_at_a_lid_nothing_flows(kind, flows):
+    units = (UnitParts("tank", "T-0", (0,)), UnitParts("tank", "T-1", (1,)))
+    places = (Place("junction", (1.0, 0.0, 0.0), (20,)), Place(kind, (1.0, 1.0, 0.0), (21,)))
+    ends = (0, 2), (2, 1), (2, 3)
+    pipes = tuple(Link(a, b, (10 + k,), ((0.0, 0.0, 0.0), (1.0, 0.0, 0.0)), 1.0) for k, (a, b) in enumerate(ends))
+    said = filed(Network(units, places, pipes), (20, 12, ORDER), (12, 21, ORDER), (10, 20, ORDER))
+    assert [one.link for one in said] == ([0, 2] if flows else [0])
+
+
 def test_one_statement_speaks_for_the_link_that_both_its_ends_are_on():
     tee = Place("junction", (1.0, 0.0, 0.0), (20,))
     units = tuple(UnitParts("tank", f"T-{k}", (k,)) for k in range(3))

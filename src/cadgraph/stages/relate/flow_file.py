@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from cadgraph.model.facts import StatedLink
 from cadgraph.model.parts import Network
-from cadgraph.stages.relate.flow_spread import Evidence, Flows, spread
+from cadgraph.stages.relate.flow_spread import Evidence, Flows, idle_links, spread
 from cadgraph.stages.relate.stated import Stated
 
 __all__ = ["Weighed", "file_flow", "is_of_file", "weigh_flow"]
@@ -58,7 +58,10 @@ def file_flow(network: Network, stated: Stated) -> tuple[list[Evidence], list[_D
     """
     found: list[Evidence] = []
     doubts: list[_Doubt] = []
-    for number, cast in sorted(_votes(network, stated).items()):
+    votes = _votes(network, stated)
+    # A branch of a file may begin or end at a closed end: that is the order of its elements, and no flow.
+    closed = idle_links(network).dead if votes else frozenset()
+    for number, cast in sorted((number, cast) for number, cast in votes.items() if number not in closed):
         said = [one for sense in (True, False) for one in _evidence(number, sense, cast)]
         said.sort(key=lambda one: -one.confidence)
         doubts += [(said[0], said[1])] if len(said) == 2 else []

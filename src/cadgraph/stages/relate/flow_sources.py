@@ -146,7 +146,7 @@ def pumps(sight: Sight) -> Iterator[Evidence]:
             continue
         suction, discharge, sure, why = found
         yield from _flowing(sight, number, suction, False, sure, f"suction of {unit.tag} ({why})")
-        yield from _flowing(sight, number, discharge, True, sure, f"discharge of {unit.tag} ({why})")
+        yield from _flowing(sight, number, discharge, True, sure, f"discharge of {unit.tag} (its suction is {why})")
 
 
 def _shaft(unit: UnitParts, parts: Parts) -> Floats | None:

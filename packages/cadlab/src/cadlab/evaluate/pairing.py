@@ -152,7 +152,8 @@ def pair(graph: SceneGraph, truth: Truth) -> Pairing:
             raise FormatError(
                 f"the truth is of another scene: {common} of its {len(listed)} meshes are in the graph of "
                 f"{graph.source.path or 'an unnamed scene'!s} ({len(seen)} meshes), {example!r} for one is not; "
-                "give the truth that belongs to the graph's scene"
+                "give the truth that belongs to the graph's scene; where a format names a generated plant's meshes "
+                "otherwise, 'cadgraph environment match SCENE' makes it"
             )
     vocabulary = Vocabulary.from_json(graph.vocabulary) if graph.vocabulary else default_vocabulary()
     return Pairing(graph, truth, vocabulary, _structures(truth, vocabulary))
