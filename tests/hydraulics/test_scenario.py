@@ -112,6 +112,13 @@ def test_an_end_that_is_said_to_feed_gets_a_pressure(graph, tmp_path):
     assert scenario.ends["terminal-001"].flow is None
 
 
+def test_a_gauge_that_measures_something_else_has_its_unit_and_a_scale_anew(tmp_path):
+    graph = pumping()
+    (tmp_path / "scenario.yaml").write_text("gauges: {G-004: {measures: flow}}", encoding="utf-8")
+    gauge = read_scenario(tmp_path / "scenario.yaml", graph).gauges["G-004"]
+    assert (gauge.measures, gauge.unit) == ("flow", "m3/h")
+
+
 @pytest.mark.parametrize(
     ("text", "said"),
     [

@@ -2,6 +2,8 @@ import pytest
 
 import graphs
 from cadgraph.cli.screen import summary_lines
+from cadgraph.model.diagnostic import Diagnostic
+from cadgraph.model.graph import SceneGraph
 from cadgraph.query.summary import connection_words, end_words, summarize
 from networks import chain, junction, network, pumping, terminal, unit
 
@@ -26,6 +28,12 @@ def test_connections_are_counted_once_by_what_they_join():
 def test_what_a_connection_joins(edges, words):
     nodes = [unit("P-001"), unit("V-001"), junction(1), terminal(1)]
     assert connection_words(summarize(network(nodes, chain(edges)))) == words
+
+
+@pytest.mark.parametrize("code", ["cut-short", "broken-primitive", "damaged-source", "unbalanced-tree"])
+def test_what_a_damaged_file_lacks_is_said_aloud(code):
+    lacking = pumping().document.model_copy(update={"diagnostics": (Diagnostic(code, "a half is missing", ()),)})
+    assert "a half is missing" in "\n".join(summary_lines(summarize(SceneGraph(lacking))))
 
 
 def test_ends_are_told_by_kind():

@@ -17,7 +17,7 @@ from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Part, Point
 from cadgraph.query.components import find_components
-from cadgraph.query.piped_line import Component, LineEnd, PipedLine
+from cadgraph.query.piped_line import Branch, Component, LineEnd, PipedLine
 
 __all__ = ["write_pcf"]
 
@@ -177,8 +177,7 @@ def _component(component: Component, materials: dict[str, str], notes: _Notes) -
     if component.centre is not None and keyword not in ("PIPE", "VALVE", "MISC-COMPONENT"):
         yield f"    CENTRE-POINT {_point(component.centre)}"
     for number, branch in enumerate(component.branches, 1):
-        bore = _bore(branch.size, branch.diameter) or bores[0]
-        yield f"    BRANCH{number}-POINT {_point(branch.point)} {bore}"
+        yield f"    BRANCH{number}-POINT {_point(branch.point)} {_branch_bore(branch, component, bores[0], notes)}"
     if skey is not None:
         yield f"    SKEY {skey}"
     if keyword in ("ELBOW", "BEND"):
@@ -201,7 +200,8 @@ def _flat(component: Component, notes: _Notes) -> Iterator[str]:
 
 
 def _tail(component: Component, bores: tuple[str, str], keyword: str, materials: dict[str, str]) -> Iterator[str]:
-    size = bores[0] if bores[0] == bores[1] else f"{bores[0]}X{bores[1]}"
+    branches = [_bore(branch.size, branch.diameter) or "0" for branch in component.branches if keyword == "OLET"]
+    size = "X".join(dict.fromkeys((*bores, *branches)))
     code = f"{keyword}-{size}" if component.kind != "valve" else f"{_code(component.what or 'valve')}-{size}"
     what = _DESCRIPTIONS.get(component.kind) or component.what or component.kind
     materials[code] = f"{_field(what)} {size}"
@@ -274,6 +274,17 @@ def _bores(component: Component, notes: _Notes) -> tuple[str, str]:
         notes.add(code, f"components without a nominal size are written with {said}", component.parts)
     first, last = found[0] or found[1] or "0", found[1] or found[0] or "0"
     return first, last
+
+
+def _branch_bore(branch: Branch, component: Component, run: str, notes: _Notes) -> str:
+    """The bore of a branch; that of an outlet set on a pipe is never taken to be the pipe's."""
+    found = _bore(branch.size, branch.diameter)
+    if component.kind != "branch outlet":
+        return found or run
+    if branch.size is None:
+        code, said = ("measured-bore", "the measured bore") if found else ("unknown-bore", "bore 0")
+        notes.add(code, f"components without a nominal size are written with {said}", component.parts)
+    return found or "0"
 
 
 def _bore(size: int | None, diameter: float | None) -> str | None:

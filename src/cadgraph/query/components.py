@@ -572,7 +572,7 @@ class _Plant:
                     start=run.centreline.at(station),
                     end=run.centreline.at(station),
                     centre=run.centreline.at(station),
-                    branches=(Branch(away[0].point, None, None, node.tag),),
+                    branches=(Branch(away[0].point, None, node.ports[0].diameter if node.ports else None, node.tag),),
                     sizes=item.sizes,
                     diameters=item.diameters,
                     parts=outlet.parts,

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-
-import networkx
+from typing import TYPE_CHECKING
 
 from cadgraph._io.text import tag_key
 from cadgraph.errors import Unconnected
@@ -16,6 +15,9 @@ from cadgraph.model.records import Terminal, Unit
 from cadgraph.query.doubt import Doubt, open_sides
 from cadgraph.query.duty import Duty, blocked_relief, duty_of, likely_kinds
 from cadgraph.query.network import Arc, Network
+
+if TYPE_CHECKING:
+    import networkx
 
 __all__ = ["Consequence", "WhatIf", "what_if"]
 
@@ -275,6 +277,8 @@ class _Closing:
     @cached_property
     def _meshed(self) -> frozenset[int]:
         """The connections in loops, where which way it flows depends on what else is open; tanks divide loops."""
+        import networkx
+
         joined: networkx.MultiGraph[str] = networkx.MultiGraph()
         numbers: dict[frozenset[str], list[int]] = {}
         for place in self.network.places:

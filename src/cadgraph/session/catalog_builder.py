@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -107,9 +107,25 @@ def take_graph(
     if not chosen:
         what = "is labelled so" if only else "has a label from outside or a correction"
         raise LabelError(f"{folder}: no part {what}; name a label that its parts have with --only 'group/name'")
+    torn = _torn_shapes(graph, chosen) if label is None else frozenset()
+    kept = [part for part in chosen if part.shape not in torn]
+    if not kept:
+        return Intake(catalog, len(chosen), (), 0, (), len(torn))
     source = find_source(graph.source, Path(folder), scene)
-    shapes = _shapes_of(chosen, source, config_of(folder))
-    return _taken(catalog, shapes, [_entry(part, source, label) for part in chosen])
+    shapes = _shapes_of(kept, source, config_of(folder))
+    taken = _taken(catalog, shapes, [_entry(part, source, label) for part in kept])
+    return replace(taken, n_parts=len(chosen), torn=taken.torn + len(torn))
+
+
+def _torn_shapes(graph: SceneGraph, chosen: Sequence[Part]) -> frozenset[str]:
+    """The shapes of chosen parts that other parts have under another label, of which the labeler is sure."""
+    said: dict[str, set[tuple[str, str | None]]] = {}
+    for part in chosen:
+        said.setdefault(part.shape, set()).update([part.label.said] if part.label is not None else [])
+    for part in graph.parts():
+        if part.shape in said and part.label is not None and not part.label.likely:
+            said[part.shape].add(part.label.said)
+    return frozenset(shape for shape, labels in said.items() if len(labels) > 1)
 
 
 def _shapes_of(parts: Sequence[Part], source: Path, config: Config) -> Scene:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -248,6 +248,7 @@ def _clusters(results: Results, ids: Sequence[str]) -> list[Cluster]:
 
 def _units(results: Results, part_ids: Sequence[str], above: Sequence[Sequence[NodeFacts]]) -> list[Unit]:
     nodes = []
+    bores = _bores(results.network)
     for number, unit in enumerate(results.network.units):
         centroid, low, high = _extent(results, unit.parts)
         nodes.append(
@@ -258,7 +259,7 @@ def _units(results: Results, part_ids: Sequence[str], above: Sequence[Sequence[N
                 kind=unit.kind,
                 kind_guesses=unit.kind_guesses,
                 parts=tuple(part_ids[part] for part in unit.parts),
-                ports=_ports(unit, results.scene.origin),
+                ports=_ports(unit, bores.get(number, {}), results.scene.origin),
                 centroid=centroid,
                 aabb=(low, high),
                 access=_access(results, number),
@@ -332,16 +333,31 @@ def _reached(results: Results, levels: Sequence[Place], units: Sequence[Unit]) -
     return edges
 
 
-def _ports(unit: UnitParts, origin: Floats) -> tuple[Port, ...]:
-    """The openings, named N1, N2... in their order."""
+def _bores(network: Network) -> Mapping[int, Mapping[int, float]]:
+    """The bore of the line at each opening of a unit that one line of one size leaves from, by unit, then opening."""
+    lines: dict[tuple[int, int], list[Link]] = {}
+    for link in network.links:
+        for node, port in ((link.source, link.source_port), (link.target, link.target_port)):
+            if port >= 0:
+                lines.setdefault((node, port), []).append(link)
+    found: dict[int, dict[int, float]] = {}
+    for (unit, opening), (link, *more) in lines.items():
+        if not more and link.diameter is not None and len(link.sizes) <= 1:
+            found.setdefault(unit, {})[opening] = link.diameter
+    return found
+
+
+def _ports(unit: UnitParts, bores: Mapping[int, float], origin: Floats) -> tuple[Port, ...]:
+    """The openings, named N1, N2... in their order, with the bores that are known."""
+    diameters = [bores.get(number, opening.diameter) for number, opening in enumerate(unit.openings)]
     return tuple(
         Port(
             name=f"N{number}",
             point=_point(opening.point, origin),
             direction=None if opening.direction is None else points(opening.direction)[0],
-            diameter=None if opening.diameter is None else _rounded(opening.diameter),
+            diameter=None if diameter is None else _rounded(diameter),
         )
-        for number, opening in enumerate(unit.openings, 1)
+        for number, (opening, diameter) in enumerate(zip(unit.openings, diameters, strict=True), 1)
     )
 
 
