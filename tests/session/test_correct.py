@@ -180,6 +180,13 @@ def test_a_shape_with_two_labels_in_a_graph_is_left_out(scene, tmp_path):
     assert (len(taken.added), taken.torn) == (1, 1)
 
 
+def test_a_shape_that_others_have_under_another_label_is_left_out_of_a_catalogue(folder):
+    amend(folder, "/a", "handwheel", report=False)
+    amend(folder, "/b", "lever", this_only=True, report=False)
+    taken = take_graph(EMPTY, folder, only=("Valve assembly", "lever"))
+    assert (taken.added, taken.torn, taken.catalog.entries) == ((), 1, ())
+
+
 def test_explanations_say_what_the_graph_knows(folder):
     told = explain(amend(folder, "/a", "handwheel", report=False).outcome.graph, "/b")
     assert (told.label, told.source, told.confidence) == ("Valve assembly/handwheel", "repeat", 1.0)

@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 
 from cadgraph.cli import main
 from cadgraph.draw.schematic import draw_diagram
+from cadgraph.draw.schematic.drawing import _apart as apart
 from cadgraph.draw.schematic.layout import lay_out
 from cadgraph.draw.schematic.plan import plan_systems
 from cadgraph.query import Network
@@ -183,6 +184,14 @@ def test_a_pump_discharges_at_its_right_even_where_the_line_leads_back():
         if edge.anchor == pump
     }
     assert sides == {"N1": False, "N2": True}
+
+
+def test_the_arrow_of_a_branch_stands_where_it_has_left_the_header():
+    header = ((860.0, 90.0), (950.0, 90.0))
+    branch = ((860.0, 90.0), (900.0, 90.0), (900.0, 190.0), (930.0, 190.0))
+    assert apart(branch, [((860.0, 90.0), (800.0, 90.0)), header]) == branch[1:]
+    assert apart(branch, [((860.0, 90.0), (860.0, 10.0), (950.0, 10.0))]) == branch
+    assert apart(header, [branch]) == header
 
 
 def test_an_unsure_connection_is_dashed():

@@ -95,8 +95,10 @@ def draw_sheet(network: Network, system: str | None = None, styled: bool = True)
 def _system(placed: Placed, dx: float, dy: float, numbered: bool) -> Svg:
     paper = _Paper(numbered)
     sketch = placed.sketch
-    for edge, way in zip(sketch.edges, placed.ways, strict=True):
-        _draw_way(paper, sketch.rows[edge.row], edge, _ended(placed, edge, way))
+    ways = [_ended(placed, edge, way) for edge, way in zip(sketch.edges, placed.ways, strict=True)]
+    for i, (edge, way) in enumerate(zip(sketch.edges, ways, strict=True)):
+        beside = [ways[k] for k, other in enumerate(sketch.edges) if other.anchor == edge.anchor and k != i]
+        _draw_way(paper, sketch.rows[edge.row], edge, way, _apart(way, beside))
     for (x, y), row in zip(placed.rows, sketch.rows, strict=True):
         _draw_row(paper, row, x, y)
     for i, ((x, y), anchor) in enumerate(zip(placed.anchors, sketch.anchors, strict=True)):
@@ -159,7 +161,14 @@ def _directions(
             yield 0, -1
 
 
-def _draw_way(paper: _Paper, row: Row, edge: Edge, way: Way) -> None:
+def _apart(way: Way, others: Sequence[Way]) -> Way:
+    """A way without the pieces at its beginning that it shares with others of its anchor."""
+    while len(way) > 2 and any(any(_directions(way[1], a, b)) for other in others for a, b in pairwise(other)):
+        way = way[1:]
+    return way
+
+
+def _draw_way(paper: _Paper, row: Row, edge: Edge, way: Way, own: Way) -> None:
     style = ("p" if row.line else "i") + ("" if edge.solid else " u")
     d = "M" + "L".join(f"{number(x)} {number(y)}" for x, y in way)
     along = paper.told([_nearest(row, edge)] if row.line else [])
@@ -167,7 +176,7 @@ def _draw_way(paper: _Paper, row: Row, edge: Edge, way: Way) -> None:
     for (ax, ay), (bx, by) in zip(way, way[1:], strict=False):
         paper.segments.append((min(ax, bx), min(ay, by), max(ax, bx), max(ay, by)))
     if edge.flow == "in":
-        _draw_arrow(paper, way[::-1], 4.0, _tag(row), along)
+        _draw_arrow(paper, own[::-1], 4.0, _tag(row), along)
 
 
 def _tag(row: Row) -> str | None:
