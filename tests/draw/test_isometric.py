@@ -148,6 +148,15 @@ def test_the_tag_of_an_instrument_stands_in_its_balloon_clear_of_the_pipe():
     assert abs(float(balloon.get("cx"))) > float(balloon.get("r"))
 
 
+def test_the_bill_has_the_outlets_that_instruments_sit_on():
+    line = through((0.0, 0.0, 0.0), (0.0, 0.0, 1.0), (0.0, 0.0, 2.0))
+    outlet = replace(line.components[0], kind="branch outlet", what="branch outlet", sizes=(80, 80))
+    root = ET.fromstring(draw_isometric(replace(line, outlets=(outlet, outlet)))[0])
+    said = [element.text for element in root.iter(f"{SVG}text")]
+    row = said.index("branch outlet on the pipe")
+    assert said[row : row + 3] == ["branch outlet on the pipe", "80", "2"]
+
+
 def test_a_dimension_crosses_no_pipe_where_there_is_room_beside():
     line = through((0.0, 0.0, 0.0), (0.0, 0.0, -1.0), (0.0, -2.0, -1.0), (3.0, -2.0, -1.0), (3.0, -2.0, -4.0))
     root = ET.fromstring(draw_isometric(line)[0])

@@ -10,7 +10,7 @@ import pytest
 import cadgraph
 from cadgraph.hydraulics.process import Process
 from cadgraph.hydraulics.scenario_file import write_scenario
-from cadgraph.model.records import Mechanism
+from cadgraph.model.records import Mechanism, Port
 from networks import chain, junction, network, pumping, terminal, unit
 from waterworks import head_gained, imbalance, line, random_commands
 
@@ -235,6 +235,18 @@ def test_a_tank_runs_down_to_its_lowest_nozzle():
         state = plant.step(dt=1.0)
     assert state.level["T-001"] == pytest.approx(0.5, abs=0.03)
     assert "T-001 is down to its lowest nozzle: nothing leaves it" in state.remarks
+
+
+def test_a_tank_that_is_down_to_an_outlet_above_its_lowest_nozzle_says_so():
+    tank = unit("T-001", ports=("N1", "N2")).model_copy(
+        update={"ports": (Port(name="N1", point=(0.0, 0.0, 1.5)), Port(name="N2", point=(0.0, 0.0, 0.2)))}
+    )
+    nodes = [tank, unit("V-001", "ball valve"), terminal(1), unit("V-002", "ball valve"), terminal(2)]
+    plant = Process(network(nodes, chain("T-001.N1 V-001 X1") + chain("T-001.N2 V-002 X2", direction="unknown")))
+    plant = edited(plant, "tanks", "T-001", bottom=0.0, level=1.0, height=3.0)
+    assert "T-001 is down to its outlet N1: nothing leaves it there" in plant.steady({}).remarks
+    full = edited(plant, "tanks", "T-001", bottom=0.0, level=2.0, height=3.0)
+    assert not any("outlet" in remark for remark in full.steady({}).remarks)
 
 
 def test_what_leaves_a_tank_is_what_its_level_falls_by():

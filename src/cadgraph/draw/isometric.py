@@ -550,6 +550,9 @@ def _bill(line: PipedLine) -> Iterator[tuple[str, str, str]]:
             pipes[size] = pipes.get(size, 0.0) + each.length
         else:
             counted[_named(each), size] += 1
+    for outlet in line.outlets:
+        size = next((str(size) for size in outlet.sizes if size is not None), "?")
+        counted[f"{_named(outlet)} on the pipe", size] += 1
     for _, kind, _ in line.instruments:
         counted[kind or "instrument", ""] += 1
     for size, length in sorted(pipes.items()):

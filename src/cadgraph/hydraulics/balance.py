@@ -248,6 +248,14 @@ class _Places:
         for link in pipes.tolist():
             for node in dict.fromkeys((int(circuit.start[link]), int(circuit.end[link]))):
                 joined.setdefault(node, []).append(link)
+        self.outlets = {
+            (node.tag, arc.start_port)
+            for place, node in network.places.items()
+            if isinstance(node, Unit) and node.unit_type == "tank"
+            for arc in network.arcs(place)
+            if arc.flow == "along"
+        }
+        """Tags of tanks with those of their ports that something is known to flow out of."""
         self._at_gauge = {tag: joined.get(node, []) for tag, node in circuit.gauges.items()}
         self.tank_of = _tanks_of_gauges(network)
 

@@ -74,6 +74,16 @@ def _of_tanks(balance: Balance) -> Iterator[str]:
             yield f"{tag} is empty"
         elif tank.bottom + level <= lowest:
             yield f"{tag} is down to its lowest nozzle: nothing leaves it"
+        else:
+            dry = [
+                nozzle.port
+                for nozzle in balance.circuit.nozzles
+                if nozzle.tag == tag
+                and nozzle.height >= tank.bottom + level
+                and (tag, nozzle.port) in balance.places.outlets
+            ]
+            if dry:
+                yield f"{tag} is down to its outlet {', '.join(dry)}: nothing leaves it there"
 
 
 def _n_boiling(balance: Balance) -> int:
