@@ -76,6 +76,12 @@ def test_a_valve_is_shut_only_once_it_has_got_there(strip):
     assert [slow._event(number) for number in (24, 48)] == ["V-001 is being closed", "V-001 shut"]
 
 
+def test_a_move_that_another_takes_over_is_told_as_broken_off(strip):
+    moves = Move(at=1, over=2, set={"V-001": 0.0}), Move(at=2, over=1, set={"V-001": 1.0})
+    both = Strip(strip.graph, playing.scene(), replace(strip.film, moves=moves), [Gauge("G-001", 4.0, "bar")])
+    assert both._deeds() == [("1.0 to 3.0 s", "V-001 shut, broken off at 2.0 s"), ("2.0 to 3.0 s", "V-001 open")]
+
+
 def test_a_film_in_which_nothing_is_done_is_drawn_too(tmp_path):
     drawn().write_png(tmp_path / "animation.png")
 

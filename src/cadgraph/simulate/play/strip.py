@@ -16,6 +16,7 @@ import numpy as np
 from PIL import Image, ImageDraw
 
 from cadgraph._io.atomic import write_atomically
+from cadgraph.hydraulics.settings import Move
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Connected, Unit
 from cadgraph.model.scene import Scene
@@ -237,10 +238,17 @@ class Strip:
         told = []
         for move in moves:
             when = f"{move.at:.1f} s" if move.over == 0 else f"{move.at:.1f} to {move.at + move.over:.1f} s"
-            told.append((when, ", ".join(self._deed(tag, value, True) for tag, value in move.set.items())))
+            told.append((when, ", ".join(self._told(move, tag, value) for tag, value in move.set.items())))
         if len(moves) < len(self.film.moves):
             told.append(("", f"and {len(self.film.moves) - len(moves)} more"))
         return told
+
+    def _told(self, move: Move, tag: str, value: float) -> str:
+        """What a move does to one thing; one that another takes over before its end doesn't get there."""
+        ends = move.at + move.over
+        broken_off = next((one.at for one in self.film.moves if tag in one.set and move.at < one.at < ends), None)
+        said = self._deed(tag, value, True)
+        return said if broken_off is None else f"{said}, broken off at {broken_off:.1f} s"
 
 
 def _change(film: Film, gauge: Gauge) -> float:
