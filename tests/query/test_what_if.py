@@ -259,3 +259,13 @@ def test_what_blocks_a_relief_valve_is_said():
     nodes = [unit("T-001"), unit("V-001", "gate valve"), unit("V-002", "relief valve"), junction(1)]
     passed = network([*nodes, terminal(1), terminal(2)], [*chain("T-001 V-001 J1 X1"), *chain("J1 V-002 X2")])
     assert not any("blocks" in text for text in what_if(passed, "V-001").remarks)
+
+
+def test_a_loop_that_a_pump_drives_by_itself_is_not_said_to_be_cut_off():
+    nodes = [terminal(1), unit("V-001", "gate valve"), junction(1), unit("P-001", ports=("N1", "N2"))]
+    nodes += [unit("V-002", "gate valve"), unit("G-001", "pressure gauge"), junction(2), unit("V-003", "gate valve")]
+    ways = chain("X1 V-001 J1 P-001.N1") + chain("P-001.N2 V-002 G-001 J2 J1") + chain("J2 V-003 X2")
+    found = what_if(network([*nodes, terminal(2)], ways), "V-001")
+    driven = {one.name for one in found.unknown if "round a loop" in one.why}
+    assert driven == {"P-001", "V-002", "G-001"}
+    assert not any("run dry" in remark for remark in found.remarks)

@@ -295,12 +295,11 @@ class _Closing:
         """What lies in a loop with a pump, all along known flow, that no closed valve divides."""
         found: set[str] = set()
         for pump in (place for place in cut if self.network.unit_type(place) == "pump"):
+            behind = self._reach((pump,), self.barriers, lambda arc: self._follows(arc.back))
             for arc in self.network.arcs(pump):
-                if arc.flow != "along" or arc.end in self.barriers:
-                    continue
-                ahead = self._reach((arc.end,), self.barriers)
-                if pump in ahead:
-                    found |= {place for place in ahead if pump in self._reach((place,), self.barriers)}
+                if arc.flow == "along" and arc.end not in self.barriers:
+                    ahead = self._reach((arc.end,), self.barriers)
+                    found |= ahead & behind if pump in ahead else set()
         return found
 
     def _surely_follows(self, arc: Arc) -> bool:
