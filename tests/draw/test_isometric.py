@@ -148,6 +148,14 @@ def test_the_tag_of_an_instrument_stands_in_its_balloon_clear_of_the_pipe():
     assert abs(float(balloon.get("cx"))) > float(balloon.get("r"))
 
 
+def test_a_valve_on_a_tap_is_drawn_as_a_valve():
+    line = through((0.0, 0.0, 0.0), (0.0, 0.0, 1.0), (0.0, 0.0, 2.0))
+    line = replace(line, instruments=(("V-010", "relief valve", (0.0, 0.0, 1.0)),))
+    root = ET.fromstring(draw_isometric(line)[0])
+    assert not list(root.iter(f"{SVG}circle"))
+    assert {"V-010", "relief valve"} <= {element.text for element in root.iter(f"{SVG}text")}
+
+
 def test_the_bill_has_the_outlets_that_instruments_sit_on():
     line = through((0.0, 0.0, 0.0), (0.0, 0.0, 1.0), (0.0, 0.0, 2.0))
     outlet = replace(line.components[0], kind="branch outlet", what="branch outlet", sizes=(80, 80))

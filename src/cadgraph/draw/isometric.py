@@ -454,11 +454,16 @@ def _tags(sheet: Isometric, legs: Sequence[_Leg], spots: Sequence[Spot]) -> None
 
 
 def _instruments(sheet: Isometric, line: PipedLine, legs: Sequence[_Leg], spots: Sequence[Spot]) -> None:
-    for tag, _, point in line.instruments:
+    for tag, kind, point in line.instruments:
         nearest = min(range(len(spots)), key=lambda i: math.dist(_corner(legs, i), point))
         at, way = spots[nearest], _free(sheet, spots[nearest])
         middle = _off(at, way, _STEM + _BALLOON)
         sheet.line([at, _off(at, way, _STEM)], "f")
+        if "valve" in (kind or ""):
+            far = _off(at, way, _STEM + _LENGTHS["valve"])
+            _valve(sheet, kind or "", _off(at, way, _STEM), far, (-way[1], way[0]))
+            sheet.text(far, [tag, kind or ""], way, "b")
+            continue
         sheet.dot(middle, _BALLOON, "s")
         if len(tag) <= _BALLOON_LETTERS:
             sheet.shapes.append(
