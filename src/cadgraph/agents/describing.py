@@ -39,7 +39,7 @@ def describe(
     Raises:
         AskError: nothing is called so.
     """
-    line = next((each for each in plant.lines if each.tag.casefold() == id.strip().casefold()), None)
+    line = plant.line(id)
     if line is not None:
         return _answer(_line_rows(line), {"line": line_values(line)}, page)
     node = plant.find(id)

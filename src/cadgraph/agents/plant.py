@@ -72,6 +72,10 @@ class Plant:
         """All lines, in the order of the line list."""
         return tuple(find_lines(self.network))
 
+    def line(self, which: str) -> Line | None:
+        """The line of the line list with this number, however its letter is written; None where there is none."""
+        return next((line for line in self.lines if line.tag.casefold() == which.strip().casefold()), None)
+
     @property
     def has_places(self) -> bool:
         """Whether the graph says where one can stand; graphs of earlier versions don't."""
@@ -126,7 +130,7 @@ class Plant:
 
     def _hint(self, which: str) -> str:
         """The ends of a line of that number; units whose tags begin so, where none has a tag much like this one."""
-        line = next((each for each in self.lines if each.tag.casefold() == which.strip().casefold()), None)
+        line = self.line(which)
         if line is not None:
             on_it = ", ".join((line.start_name, *line.through_names[:_MOST_HINTED], line.end_name))
             return f"{line.tag} is a line; name what stands on it or at its ends: {on_it}"

@@ -132,7 +132,7 @@ class InputFile:
         if reliefs:
             names = ", ".join(self.network.name(place) for place in reliefs)
             yield Diagnostic("relief-shut", f"{names}: EPANET has no relief valve, so it is written shut", ())
-        still = [circuit.owner[link] for link in self._of(LinkKind.PUMP) if not condition.one_way[link]]
+        still = [circuit.owner[link] for link in self._pumps_that(run=False)]
         if still:
             names = ", ".join(self.network.name(place) for place in still)
             yield Diagnostic("pump-open", f"{names}: stands still, and is written as a valve that lets pass", ())
@@ -217,18 +217,17 @@ class InputFile:
 
     def _pumps(self) -> Iterator[str]:
         circuit = self.balance.circuit
-        for link in self._running():
+        for link in self._pumps_that(run=True):
             speed = self.balance.speed[self.network.name(circuit.owner[link])]
             yield f" {self.links[link]}\t{self._ends(link)}\tHEAD curve-{self.links[link]}\tSPEED {speed:g}"
 
-    def _running(self) -> list[int]:
-        """The pumps that run; one that stands still lets pass either way here, which a closed one of EPANET doesn't."""
-        return [link for link in self._of(LinkKind.PUMP) if self.condition.one_way[link]]
+    def _pumps_that(self, run: bool) -> list[int]:
+        """The pumps that run, or those that stand still: these let pass, which EPANET's closed ones don't."""
+        return [link for link in self._of(LinkKind.PUMP) if self.condition.one_way[link] == run]
 
     def _valves(self) -> Iterator[str]:
         circuit = self.balance.circuit
-        standing = [link for link in self._of(LinkKind.PUMP) if not self.condition.one_way[link]]
-        for link in [*self._of(LinkKind.VALVE, LinkKind.THROUGH, LinkKind.NOZZLE), *standing]:
+        for link in [*self._of(LinkKind.VALVE, LinkKind.THROUGH, LinkKind.NOZZLE), *self._pumps_that(run=False)]:
             if not self._is_stub(link):
                 loss = self._coefficient(link)
                 yield (
@@ -237,7 +236,7 @@ class InputFile:
 
     def _curves(self) -> Iterator[str]:
         circuit = self.balance.circuit
-        for link in self._running():
+        for link in self._pumps_that(run=True):
             pump = self.balance.scenario.pumps[self.network.name(circuit.owner[link])]
             yield f" curve-{self.links[link]}\t{pump.flow:.6f}\t{pump.head:.6f}"
 

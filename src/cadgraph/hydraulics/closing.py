@@ -75,17 +75,11 @@ def _flowing(process: Process) -> dict[str, float]:
 
 
 def _disagreements(found: WhatIf, before: dict[str, float], after: dict[str, float]) -> Iterator[str]:
-    for one in found.cut_off:
-        if not one.why and after[one.place] > _FLOWS:
-            flow = after[one.place] * 3600
-            yield f"the graph says that {one.name} is cut off, but {flow:.2f} m3/h flow there in the simulation"
-    for one in found.dead_headed:
-        if not one.why and after[one.place] > _FLOWS:
-            flow = after[one.place] * 3600
-            yield (
-                f"the graph says that {one.name} pumps against shut valves, but {flow:.2f} m3/h flow there in the "
-                "simulation"
-            )
+    for said, those in (("is cut off", found.cut_off), ("pumps against shut valves", found.dead_headed)):
+        for one in those:
+            if not one.why and after[one.place] > _FLOWS:
+                flow = after[one.place] * 3600
+                yield f"the graph says that {one.name} {said}, but {flow:.2f} m3/h flow there in the simulation"
     for one in found.still_fed:
         if before[one.place] > _FLOWS >= after[one.place]:
             yield (

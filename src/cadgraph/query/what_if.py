@@ -262,14 +262,14 @@ class _Closing:
             piece = self._reach((next(iter(reached)),), (), lambda arc: arc.end in reached)  # noqa: B023
             reached -= piece
             ways = [arc for place in piece for arc in self.network.arcs(place) if arc.end in fed]
-            if len(ways) > 1 or any(self._lets_out(place) for place in piece):
+            if len(ways) > 1 or any(self._lets_out(p) or self.network.unit_type(p) == "pump" for p in piece):
                 found |= piece
         return found
 
     def _lets_out(self, place: str) -> bool:
         node = self.network.places[place]
         open_end = isinstance(node, Terminal) and node.kind != "blind"
-        return open_end or self.network.unit_type(place) in ("tank", "pump")
+        return open_end or self.network.unit_type(place) == "tank"
 
     def _one_way(self, place: str) -> bool:
         return self.network.unit_type(place) == "pump" or duty_of(self.network, place) == "check"
@@ -356,8 +356,7 @@ class _Closing:
 
     def _delivers(self, pump: str, blocked: Collection[str]) -> bool:
         """Whether a pump has a way to a tank or an end."""
-        ahead = self._reach((pump,), blocked)
-        return any(self._lets_out(place) and self.network.unit_type(place) != "pump" for place in ahead)
+        return any(map(self._lets_out, self._reach((pump,), blocked)))
 
     def _doubts(self, cut: Collection[str]) -> tuple[Doubt, ...]:
         pieces = [place for place in self.network.places if place in cut]

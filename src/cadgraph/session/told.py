@@ -8,7 +8,7 @@ from collections.abc import Collection, Mapping, Sequence
 from cadgraph._io.text import natural_key
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.labels import CorrectedEvidence
-from cadgraph.model.records import Connected, Junction, Part, Terminal, Unit
+from cadgraph.model.records import Connected, Junction, Node, Part, Terminal, Unit
 
 __all__ = ["tell_flow", "tell_followers", "tell_renamed", "tell_units"]
 
@@ -83,10 +83,11 @@ def tell_flow(before: SceneGraph, now: SceneGraph) -> str:
         before: a graph.
         now: one of the same scene; connections that only one of both has are passed over.
     """
-    old, new = _flows(before), _flows(now)
+    ends = _ends(now)
+    old, new = _flows(before, _ends(before)), _flows(now, ends)
     known = [key for key in new if key in old and old[key] is not None]
     turned = [new[key] for key in known if new[key] is not None and new[key] != old[key]]
-    names = _names(now)
+    names = {key: _name(now.nodes[place]) for place, key in ends.items()} if turned else {}
     shown = [f"{names[source]} -> {names[target]}" for source, target in filter(None, turned[:_MOST_TURNED])]
     more = ", ..." if len(turned) > _MOST_TURNED else ""
     told = [f"the flow turns in {_counted(len(turned))} ({', '.join(shown)}{more})"] if turned else []
@@ -99,9 +100,8 @@ def _counted(count: int) -> str:
     return f"{count:,} connection{'s' * (count != 1)}"
 
 
-def _flows(graph: SceneGraph) -> Mapping[_Key, tuple[_Key, _Key] | None]:
+def _flows(graph: SceneGraph, ends: Mapping[str, _Key]) -> Mapping[_Key, tuple[_Key, _Key] | None]:
     """By what a connection joins and leads through: from where to where it flows, None where nobody knows."""
-    ends = _ends(graph)
     found: dict[_Key, tuple[_Key, _Key] | None] = {}
     for edge in graph.of_kind(Connected):
         way = ends[edge.source], ends[edge.target]
@@ -114,19 +114,15 @@ def _flows(graph: SceneGraph) -> Mapping[_Key, tuple[_Key, _Key] | None]:
 def _ends(graph: SceneGraph) -> dict[str, _Key]:
     """What each node that lines run between is in any graph of the scene: its parts, and where an end or branch is."""
     ends: dict[str, _Key] = {}
-    for node in _places(graph):
+    nodes: list[Unit | Junction | Terminal] = [*graph.units(), *graph.of_layer(Junction), *graph.of_layer(Terminal)]
+    for node in nodes:
         point = tuple(round(c, 2) for c in node.point) if isinstance(node, Junction | Terminal) else None
         ends[node.id] = frozenset((_meshes(graph, node.parts), point))
     return ends
 
 
-def _places(graph: SceneGraph) -> list[Unit | Junction | Terminal]:
-    return [*graph.units(), *graph.of_layer(Junction), *graph.of_layer(Terminal)]
-
-
-def _names(graph: SceneGraph) -> Mapping[_Key, str]:
-    tags = {node.id: node.tag if isinstance(node, Unit) else node.id for node in _places(graph)}
-    return {key: tags[place] for place, key in _ends(graph).items()}
+def _name(node: Node) -> str:
+    return node.tag if isinstance(node, Unit) else node.id
 
 
 def _meshes(graph: SceneGraph, parts: Sequence[str]) -> frozenset[str]:

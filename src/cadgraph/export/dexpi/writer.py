@@ -289,11 +289,7 @@ class _Document:
             term = term_of_terminal(node)
         else:
             term = Term("PipeTee") if len(arcs) == 3 else Term("CustomPipeFitting", f"junction of {len(arcs)}")
-        tag = node.tag if isinstance(node, Unit) and not aside else None
-        item = add_item(segment, "PipingComponent", self.ids, term, tag, None if aside else node.id)
-        add_values(item, {"PipingComponentName": tag})
-        _add_place(item, node.centroid if isinstance(node, Unit) else node.point)
-        add_position(item, self.places.spots.get(place))
+        item = self._piece(place, segment, term, named=not aside)
         flow_in, flow_out = _flows(arcs)
         sizes = [_first_size(arc) for arc in arcs] or [None]
         add_nodes(item, [*sizes, None] if aside else sizes, flow_in, flow_out)
@@ -301,15 +297,22 @@ class _Document:
         if aside:
             self.tees[place] = item
 
+    def _piece(self, place: str, segment: ET.Element, term: Term, named: bool = True) -> ET.Element:
+        """An item of a segment where a node is; without its tag and id where it isn't the node itself."""
+        node = self.network.places[place]
+        tag = node.tag if named and isinstance(node, Unit) else None
+        item = add_item(segment, "PipingComponent", self.ids, term, tag, node.id if named else None)
+        add_values(item, {"PipingComponentName": tag})
+        _add_place(item, node.centroid if isinstance(node, Unit) else node.point)
+        add_position(item, self.places.spots.get(place))
+        return item
+
     def _branch(self, place: str) -> None:
         """A valve on the side of a run, in a segment of its own that leaves the run at a tee."""
         node, tee = self.network.places[place], self.tees[place]
         assert isinstance(node, Unit)
         segment = self._segment(self._piping_system(), None)
-        item = add_item(segment, "PipingComponent", self.ids, term_of_unit(node), node.tag, node.id)
-        add_values(item, {"PipingComponentName": node.tag})
-        _add_place(item, node.centroid)
-        add_position(item, self.places.spots.get(place))
+        item = self._piece(place, segment, term_of_unit(node))
         add_nodes(item, [None], 1, None)
         links: dict[str, str] = {}
         _set(links, "From", _End(str(tee.get("ID")), len(self.network.arcs(place)) + 1))
