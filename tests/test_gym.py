@@ -74,6 +74,17 @@ def test_a_tank_that_runs_over_has_failed():
     assert rewards[0] > rewards[-2] > 0
 
 
+def test_a_tank_that_is_down_to_its_outlet_has_failed():
+    env = PlantEnv(tanked(), task=KeepLevel("T-001"), dt=0.005, seconds=60.0, shuffle=False)
+    outlet = next(n.height for n in env.process.balance.circuit.nozzles if n.port == "N2")
+    above = outlet - env.process.scenario.tanks["T-001"].bottom
+    rewards, ended, success = until_it_ends(env, action(env, V_001=0))
+    assert (rewards[-1], ended, success) == (-1.0, True, False)
+    assert above > 0
+    with pytest.raises(ValueError, match="can't be kept"):
+        PlantEnv(tanked(), task=KeepLevel("T-001", above / 2))
+
+
 def test_an_episode_is_cut_off_when_time_is_up():
     env = PlantEnv(pumping(), dt=1.0, seconds=3.0)
     asked = action(env)

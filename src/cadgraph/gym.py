@@ -180,7 +180,8 @@ class Isolate(Task):
 class KeepLevel(Task):
     """The level of a tank is to be kept until time is up; running dry or over is failure.
 
-    Each step earns up to 1, the less the further away the level is.
+    Dry it is when it is empty, or down to the lowest of the openings that something is known to flow out of: what
+    draws from there gets nothing any more. Each step earns up to 1, the less the further away the level is.
 
     Args:
         tank: its tag.
@@ -189,7 +190,7 @@ class KeepLevel(Task):
 
     def __init__(self, tank: str, level: float | None = None) -> None:
         self.tank, self.level = tank, level
-        self._row, self._goal, self._height = 0, 0.0, 1.0
+        self._row, self._goal, self._dry, self._height = 0, 0.0, 0.0, 1.0
 
     def bind(self, process: Process) -> None:
         """Finds the tank."""
@@ -198,14 +199,22 @@ class KeepLevel(Task):
             raise ValueError(f"{self.tank} is no tank; there are {', '.join(tanks) or 'none'}")
         setting = process.scenario.tanks[tag]
         self._row, self._height = tanks.index(tag), setting.height
+        balance = process.balance
+        outlets = [
+            n.height for n in balance.circuit.nozzles if (n.tag, n.port) in balance.places.outlets and n.tag == tag
+        ]
+        self._dry = max(0.0, min(outlets, default=setting.bottom) - setting.bottom)
         self._goal = setting.level if self.level is None else self.level
-        if not 0 < self._goal < setting.height:
-            raise ValueError(f"{tag} can't be kept at {self._goal:g} m: it holds from 0 to {setting.height:g} m")
+        if not self._dry < self._goal < setting.height:
+            raise ValueError(
+                f"{tag} can't be kept at {self._goal:g} m: it feeds what it flows out to from {self._dry:g} to "
+                f"{setting.height:g} m"
+            )
 
     def judge(self, moment: Moment) -> tuple[Floats, Bools, Bools]:
         """How near the level is."""
         level = moment.level[:, self._row]
-        failed = (level <= 0) | (level >= self._height)
+        failed = (level <= self._dry) | (level >= self._height)
         away = np.abs(level - self._goal) / self._height
         return np.where(failed, -_DONE, 1 - away), np.zeros(len(level), bool), failed
 
