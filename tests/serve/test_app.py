@@ -103,7 +103,14 @@ def test_what_lies_along_the_pipes_is_told_with_its_places(client, plant):
 
 
 def test_what_cannot_be_answered_is_refused_in_words(client):
-    for question in ("trace", "trace?at=", "isolate", "trace?at=P-001&direction=sideways", "review?limit=x"):
+    for question in (
+        "trace",
+        "trace?at=",
+        "isolate",
+        "trace?at=P-001&direction=sideways",
+        "review?limit=x",
+        "review?limit=0",
+    ):
         assert client.get(f"/api/{question}").status_code == 400, question
     unknown = client.get("/api/isolate?at=X-999")
     assert unknown.status_code == 404

@@ -1,6 +1,7 @@
 """Corrections of the network in small scenes: units, joints, directions, tags, the ground."""
 
 import json
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -162,6 +163,8 @@ def test_a_device_that_labels_missed_is_not_found_again_where_it_was_cut_off():
         ({"kind": "tag", "unit": "V-001", "tag": "x" * 65}, "at most 64"),
         ({"kind": "tag", "unit": "V-001", "tag": "a\nb"}, "can't be printed"),
         ({"kind": "tag", "unit": "V-001", "tag": "part-00001"}, "ids of the graph"),
+        ({"kind": "tag", "unit": "V-001", "tag": "L-3206"}, "numbers of lines"),
+        ({"kind": "tag", "unit": "V-001", "tag": "P-001, G-002"}, "a comma stands between tags"),
         ({"kind": "ground", "part": part(0), "ground": False}, "no ground already"),
         ({"kind": "forget", "part": part(0)}, "nobody corrected"),
         ({"kind": "tag", "unit": "V-001"}, "edit 1: 'tag' is missing"),
@@ -229,7 +232,9 @@ def test_a_tag_is_used_everywhere_and_changes_nothing_else():
     before = bytes_of(session)
     hostile = "<img onerror=1> / V-4711 äß"
     change = session.apply([{"kind": "tag", "unit": "V-001", "tag": f"  {hostile} "}])
-    assert change.message == f"V-001 is called {hostile}"
+    what, lines = change.message.rsplit("; ", 1)
+    assert what == f"V-001 is called {hostile}"
+    assert re.fullmatch(r"line L-\d{4} is now L-\d{4}", lines)
     assert session.graph.unit(hostile).id == f"unit-{hostile}"
     assert bytes_of(session).replace(json.dumps(hostile)[1:-1], "V-001") == before
 
@@ -290,7 +295,7 @@ def test_several_edits_are_one_action():
         why="P&ID",
     )
     (row,) = session.history.audit()
-    assert row["what"] == "2 parts are Pipe assembly/elbow, these alone; V-001 is called V-4711"
+    assert row["what"].startswith("2 parts are Pipe assembly/elbow, these alone; V-001 is called V-4711; line L-")
     assert (row["who"], row["why"], row["undone"]) == ("Ann", "P&ID", False)
     assert row["when"].endswith("Z")
     session.undo(who="Bob")

@@ -38,7 +38,11 @@ export function listenToKeys(target: HTMLElement | Document): void {
     const on = pressed.target as HTMLElement | null;
     const typing = !!on && (on.isContentEditable || /^(INPUT|TEXTAREA|SELECT)$/.test(on.tagName));
     if (pressed.defaultPrevented || pressed.altKey || (typing && !meantForPage(pressed))) return;
-    const key = `${pressed.ctrlKey || pressed.metaKey ? "Ctrl+" : ""}${pressed.shiftKey && pressed.key.length > 1 ? "Shift+" : ""}${pressed.key}`;
+    // A letter by the Shift key alone: with Caps Lock its case says nothing.
+    const letter = /^[a-z]$/i.test(pressed.key);
+    const named = letter ? (pressed.shiftKey ? pressed.key.toUpperCase() : pressed.key.toLowerCase()) : pressed.key;
+    const shift = pressed.shiftKey && named.length > 1 ? "Shift+" : "";
+    const key = `${pressed.ctrlKey || pressed.metaKey ? "Ctrl+" : ""}${shift}${named}`;
     for (const command of commands.values()) {
       if (command.key === key && (command.when?.() ?? true)) {
         pressed.preventDefault();

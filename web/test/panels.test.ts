@@ -148,7 +148,7 @@ class Server {
   };
   takeBack = async (version: number) => {
     this.taken.push(version);
-    return version === this.version;
+    return version === this.version ? ++this.version : null;
   };
 }
 
@@ -201,6 +201,30 @@ test("back takes the last correction back and shows its question again", async (
   assert.equal(server.taken.length, 1);
   await queue.answer(1);
   server.version++;
+  assert.ok(!(await queue.back()));
+  assert.equal(queue.past.length, 1);
+});
+
+test("back takes one correction after the other back", async () => {
+  const server = new Server(question("a", [0]), question("b", [1]), question("c", [2]));
+  const queue = new Queue(server, () => {});
+  await queue.load();
+  await queue.answer(0);
+  await queue.answer("skip");
+  await queue.answer(0);
+  assert.deepEqual([await queue.back(), await queue.back(), await queue.back()], [true, true, true]);
+  assert.equal(queue.past.length, 0);
+  assert.equal(queue.current!.id, "a");
+});
+
+test("back stops at what something else came after", async () => {
+  const server = new Server(question("a", [0]), question("b", [1]));
+  const queue = new Queue(server, () => {});
+  await queue.load();
+  await queue.answer(0);
+  server.version++;
+  await queue.answer(0);
+  assert.ok(await queue.back());
   assert.ok(!(await queue.back()));
   assert.equal(queue.past.length, 1);
 });

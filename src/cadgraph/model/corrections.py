@@ -132,6 +132,11 @@ class History:
         return fold(edit for action in self._stacks[0] for edit in action.edits)
 
     @property
+    def n_done(self) -> int:
+        """How many actions are in force: as often as one can undo."""
+        return len(self._stacks[0])
+
+    @property
     def to_undo(self) -> Action | None:
         """The action that ``undo`` takes back; None where there is none."""
         return self._stacks[0][-1] if self._stacks[0] else None

@@ -13,7 +13,7 @@ from cadgraph.model.records import Connected, Junction, Terminal
 from cadgraph.query.doubt import unconnected
 from cadgraph.query.network import Network
 
-__all__ = ["Summary", "connection_between", "connection_words", "end_words", "summarize"]
+__all__ = ["Summary", "connection_between", "connection_words", "end_words", "share_words", "summarize"]
 
 _GRAVE = frozenset({
     "broken-chunk", "broken-element", "broken-mesh", "broken-node", "broken-object", "broken-primitive", "cut-short",
@@ -141,3 +141,11 @@ def end_words(summary: Summary) -> str:
     """How many ends of lines there are of which kind: "3: 2 open, 1 blind"."""
     told = [f"{summary.ends[kind]:,} {kind}" for kind in ("open", "blind", "unknown") if summary.ends.get(kind)]
     return f"{sum(summary.ends.values()):,}{': ' if told else ''}{', '.join(told)}"
+
+
+def share_words(count: int, total: int) -> str:
+    """A share in percent; it reads 100 only where nothing is missing, and 0 only where nothing is there."""
+    percent = 100 * count / total if total else 0.0
+    if 0 < count < total:
+        percent = min(max(percent, 0.1), 99.9)
+    return f"{percent:.1f} %" if 0 < percent < 1 or 99 < percent < 100 else f"{percent:.0f} %"

@@ -137,8 +137,10 @@ class _Answers:
         try:
             limit = int(request.query_params.get("limit", "50"))
         except ValueError:
-            raise Refusal(400, "limit: give a number") from None
-        return _json(await self._work(self._plant.review, max(1, min(limit, _MOST_QUESTIONS))))
+            limit = 0
+        if limit < 1:
+            raise Refusal(400, "limit: give a number of at least 1")
+        return _json(await self._work(self._plant.review, min(limit, _MOST_QUESTIONS)))
 
     async def audit(self, request: Request) -> Response:
         return _json(await self._work(self._plant.audit))

@@ -412,7 +412,7 @@ class Plant:
             can_redo=history.can_redo,
             undo=None if undo is None else undo.what,
             redo=None if redo is None else redo.what,
-            n_edits=len(history.in_force),
+            n_edits=history.n_done,
             lost=session.lost,
             **changes,
         )

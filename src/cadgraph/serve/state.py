@@ -38,7 +38,7 @@ class State:
         can_redo: whether one was taken back last.
         undo: what would be taken back, in words.
         redo: what would be done again, in words.
-        n_edits: actions in force.
+        n_edits: corrections in force, as often as one can undo.
         lost: corrections that no longer fit the model, in words.
         who: name under which actions are kept.
     """

@@ -21,7 +21,7 @@ from cadgraph.session.requests import EditRequest
 from cadgraph.session.run import Clock, Outcome, stage_graph, write_rest
 from cadgraph.session.session import Change, Session, changed_parts
 from cadgraph.session.source import find_source
-from cadgraph.session.told import tell_flow, tell_renamed, tell_units
+from cadgraph.session.told import tell_flow, tell_lines, tell_renamed, tell_units
 
 __all__ = ["Amendment", "amend", "apply_edits", "step_back_or_forth"]
 
@@ -207,4 +207,6 @@ def _changed(
 def _consequences(before: SceneGraph, now: SceneGraph) -> tuple[str, ...]:
     known = {note.message for note in before.diagnostics}
     against = [note.message for note in now.diagnostics if note.code in _DISAGREE and note.message not in known]
-    return tuple(filter(None, (tell_units(before, now), tell_flow(before, now), *against)))
+    renamed = {unit.tag for unit in before.units()} != {unit.tag for unit in now.units()}
+    lines = tell_lines(before, now) if renamed else ""
+    return tuple(filter(None, (tell_units(before, now), tell_flow(before, now), lines, *against)))

@@ -41,7 +41,7 @@ _MOST_ANCHORS = 8  # parts that a unit is known by: the largest ones
 _ALONE = ", this part alone"
 _MOST = 100_000  # requests of one action, or parts of one request
 # Names that a graph gives to its nodes; a unit that is called so could not be told from them.
-_IDS = re.compile(r"site|unit-.*|(part|cluster|junction|terminal|system|shape)-?[0-9]+", re.IGNORECASE)
+_IDS = re.compile(r"site|unit-.*|(part|cluster|junction|terminal|system|shape)-?[0-9]+|l-?[0-9]{4,}", re.IGNORECASE)
 
 _Name = Annotated[str, Field(min_length=1, max_length=4096)]
 _Names = Annotated[tuple[_Name, ...], Field(max_length=_MOST)]
@@ -237,7 +237,9 @@ class Requests:
         if tag == unit.tag:
             raise ValueError(f"{unit.tag} is called so already")
         if _IDS.fullmatch(tag):
-            raise ValueError(f"tag {tag!r}: ids of the graph look like this; give it another one")
+            raise ValueError(f"tag {tag!r}: ids of the graph and numbers of lines look like this; give it another one")
+        if "," in tag:
+            raise ValueError(f"tag {tag!r}: a comma stands between tags; give it one without")
         for other in self.graph.units():
             if other.id != unit.id and (
                 other.tag == tag or (loose_tag(tag) and loose_tag(other.tag) == loose_tag(tag))

@@ -30,7 +30,7 @@ from cadgraph.model.scene import Scene
 from cadgraph.model.vocabulary import Vocabulary, default_vocabulary
 from cadgraph.pipeline import analyse, contradicted, ground_as_said, interpret, lay_ground
 from cadgraph.session.requests import EditRequest, Requests, read_requests
-from cadgraph.session.told import tell_flow, tell_followers, tell_renamed, tell_units
+from cadgraph.session.told import tell_flow, tell_followers, tell_lines, tell_renamed, tell_units
 
 __all__ = ["Change", "Session"]
 
@@ -409,8 +409,9 @@ def _told(what: str, before: SceneGraph, now: SceneGraph, new: Sequence[Edit], c
     named = [now.part_with(edit.mesh) for edit in new if isinstance(edit, Correction)]
     followers = tell_followers([part for part in named if part is not None], changed)
     renamed = tell_renamed(before, now, {edit.tag for edit in new if isinstance(edit, Tag)})
+    lines = tell_lines(before, now) if renamed or any(isinstance(edit, Tag) for edit in new) else ""
     came = tell_units(before, now), tell_flow(before, now)
-    return "; ".join(filter(None, (what, followers, *came, renamed)))
+    return "; ".join(filter(None, (what, followers, *came, renamed, lines)))
 
 
 def _refuse_unmet(graph: SceneGraph, new: Sequence[Edit], what: str) -> None:

@@ -9,11 +9,13 @@ from cadgraph._io.text import natural_key
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.labels import CorrectedEvidence
 from cadgraph.model.records import Connected, Junction, Node, Part, Terminal, Unit
+from cadgraph.query.lines import find_lines
 
-__all__ = ["tell_flow", "tell_followers", "tell_renamed", "tell_units"]
+__all__ = ["tell_flow", "tell_followers", "tell_lines", "tell_renamed", "tell_units"]
 
 _MOST_RUNS = 3  # runs of tags that are told one by one
 _MOST_TURNED = 3  # connections that are told one by one
+_MOST_LINES = 3  # lines that are told one by one
 _Key = frozenset[object]
 
 
@@ -63,6 +65,20 @@ def tell_renamed(before: SceneGraph, now: SceneGraph, given: Collection[str] = (
     return "; ".join([*told, *([f"{rest} more tags change"] if rest else [])])
 
 
+def tell_lines(before: SceneGraph, now: SceneGraph) -> str:
+    """Which lines have another number than before: it is made from the tags of what they join; empty where none has.
+
+    Args:
+        before: a graph.
+        now: one of the same scene; lines that only one of both has are passed over.
+    """
+    old, new = _lines(before), _lines(now)
+    moved = [(old[key], number) for key, number in new.items() if old.get(key, number) != number]
+    told = [f"line {was} is now {number}" for was, number in moved[:_MOST_LINES]]
+    rest = len(moved) - len(told)
+    return "; ".join([*told, *([f"{rest:,} more lines have another number"] if rest else [])])
+
+
 def tell_units(before: SceneGraph, now: SceneGraph) -> str:
     """Of which types of unit there are more or fewer than before; empty where there are as many.
 
@@ -109,6 +125,21 @@ def _flows(graph: SceneGraph, ends: Mapping[str, _Key]) -> Mapping[_Key, tuple[_
         turned = way if edge.direction == "forward" else way[::-1]
         found[key] = None if edge.direction == "unknown" else turned
     return found
+
+
+def _lines(graph: SceneGraph) -> Mapping[_Key, str]:
+    """The number of each line, by what it joins, where, and what it leads through."""
+    ends = _ends(graph)
+    return {
+        frozenset(
+            (
+                (ends[line.start], line.start_port),
+                (ends[line.end], line.end_port),
+                *(ends[place] for place in line.through),
+            )
+        ): line.tag
+        for line in find_lines(graph)
+    }
 
 
 def _ends(graph: SceneGraph) -> dict[str, _Key]:

@@ -12,7 +12,7 @@ from cadgraph.config import ReportConfig
 from cadgraph.draw.report import write_report
 from cadgraph.errors import OutputError
 from cadgraph.model.records import Connected, Terminal
-from cadgraph.query.summary import connection_words, end_words, summarize
+from cadgraph.query.summary import connection_words, end_words, share_words, summarize
 
 SMALL = ReportConfig(width=160, height=100, samples=1)
 VOID = {"meta", "img", "link", "br", "hr", "input"}
@@ -153,6 +153,22 @@ def test_the_page_counts_what_the_summary_counts(scene, graph, build_graph, tmp_
     assert connection_words(summary) in text
     assert end_words(summary) in text
     assert "Relations of Algorithm 1" in text
+
+
+@pytest.mark.parametrize(
+    ("count", "total", "said"),
+    [
+        (302, 303, "99.7 %"),
+        (2999, 3000, "99.9 %"),
+        (1, 30000, "0.1 %"),
+        (5, 5, "100 %"),
+        (0, 5, "0 %"),
+        (0, 0, "0 %"),
+        (1, 2, "50 %"),
+    ],
+)
+def test_a_share_is_whole_only_where_nothing_is_missing(count, total, said):
+    assert share_words(count, total) == said
 
 
 def test_a_unit_without_a_line_is_named_at_the_head_of_the_page(scene, graph, build_graph, tmp_path):

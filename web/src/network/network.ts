@@ -251,7 +251,7 @@ class NetworkArea {
       { id: "network.upstream", key: "Shift+ArrowUp", title: "Trace upstream of the selection", area, when: live, run: () => at((id) => asking.trace(id, "upstream")) },
       { id: "network.downstream", key: "Shift+ArrowDown", title: "Trace downstream of the selection", area, when: live, run: () => at((id) => asking.trace(id, "downstream")) },
       { id: "network.to", key: "Shift+ArrowRight", title: "Trace from the selection to what is clicked next", area, when: live, run: () => at((id) => asking.startPick(id)) },
-      { id: "network.isolate", key: "v", title: "Isolate: valves that cut the selected unit off", area, when: live, run: () => at((id) => asking.isolate(id)) },
+      { id: "network.isolate", key: "v", title: "Valves to close to isolate the selected unit", area, when: live, run: () => at((id) => asking.isolate(id)) },
       { id: "network.clear", key: "c", title: "End the trace or isolation", area, when: () => !!asking.answer || asking.picking !== null || !!store.shown.marks, run: () => asking.clear() },
       { id: "network.sheet.fit", title: "Whole schematic", area, when: () => store.shown.schematic, run: () => this.schematic.fit() },
       { id: "network.sheet.selection", title: "Schematic: go to the selection", area, when: () => store.shown.schematic, run: () => this.schematic.toSelection() },

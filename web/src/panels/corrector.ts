@@ -11,6 +11,8 @@ import { sentence } from "./words.ts";
 
 type Say = Page["say"];
 
+const SLOW = 2500; // [ms] without an answer after which the page says that it waits
+
 interface Sending {
   /** How to send the same once more, where another window was quicker. */
   repeat?: () => void;
@@ -78,9 +80,9 @@ export class Corrector {
     return { ok: update !== null, version, message: update === null ? undefined : sentence(update.message) };
   }
 
-  /** Undoes the correction that led to a version, if nothing came after it. */
-  takeBack(version: number): Promise<boolean> {
-    return this.revert("Undo", version);
+  /** Undoes the correction that led to a version, if nothing came after it: the version then, null where it isn't. */
+  async takeBack(version: number): Promise<number | null> {
+    return (await this.revert("Undo", version)) ? this.store.content!.version : null;
   }
 
   private async revert(back: "Undo" | "Redo", version: number, quiet = false): Promise<boolean> {
@@ -105,7 +107,7 @@ export class Corrector {
       if (!content || !latest || latest.version === content.version || latest.status === "failed") return;
       await this.fetch();
       if (worked) this.say(
-        `Changed in another window${latest.undo ? `: ${latest.undo}` : ""}. The plant is shown as it is now.`
+        `Changed in another window${latest.message ? `: ${latest.message}` : ""}. The plant is shown as it is now.`
       );
     }).catch((error: unknown) => this.told(error));
   }
@@ -130,6 +132,7 @@ export class Corrector {
   ): Promise<Update | null> {
     return this.inTurn(async () => {
       this.refusal = "";
+      const slow = setTimeout(() => this.say("The server is still at work on your correction."), SLOW);
       try {
         // The version that the person has seen, not the newest that was heard of.
         const update = await run(this.store.content?.version ?? 0);
@@ -144,6 +147,8 @@ export class Corrector {
       } catch (error) {
         await this.refused(error, repeat);
         return null;
+      } finally {
+        clearTimeout(slow);
       }
     });
   }

@@ -40,7 +40,11 @@ export function searchField(
     "aria-expanded": "false", "aria-controls": `${id}-list`, "aria-label": "Find tags, labels, sizes, paths", "data-test": id,
     oninput: () => { clearTimeout(asked); asked = window.setTimeout(() => search(input.value), 60); },
     onkeydown: (event: KeyboardEvent) => {
-      if (event.key === "Escape" && input.value) { search(""); event.stopPropagation(); }
+      if (event.key === "Escape") {
+        if (input.value) search("");
+        else input.blur();
+        event.stopPropagation();
+      }
       else if (event.key === "ArrowDown") mark(active + 1);
       else if (event.key === "ArrowUp") mark(active - 1);
       else if (event.key === "Enter") {

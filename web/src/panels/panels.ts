@@ -131,6 +131,7 @@ async function untilReady(
     return;
   }
   let lost = "";
+  let refused: string | null | undefined; // why nothing can be corrected; undefined until the server has spoken
   await new Promise<void>((resolve) => {
     let fetching: Promise<void> | null = null;
     const first = (content: Content) => {
@@ -150,6 +151,8 @@ async function untilReady(
     void source.follow(new AbortController().signal, (state) => {
       if (lost && store.content) say("The server answers again.", "good");
       lost = "";
+      if (state.read_only && refused !== undefined && state.read_only !== refused) say(state.read_only, "bad");
+      refused = state.read_only;
       corrector.heard(state);
       building.show(store.state, !!store.content);
       // A plant that was built before can be looked at while it is made ready for corrections.
@@ -211,9 +214,14 @@ interface Means {
 function addPageCommands(page: Page, { picking, layout, address, open, find }: Means): void {
   const { store, source } = page;
   const live = () => source.live;
+  /** Does it where the plant can be corrected, and says why where it can't: keys must not die without a word. */
+  const correcting = (act: () => void) => {
+    if (page.canEdit()) act();
+    else page.say(store.state?.read_only ?? "The plant is still being made ready for corrections.", "bad");
+  };
   const redo = {
-    title: "Redo", area: "Corrections" as const, when: () => page.canEdit() && !!store.state?.can_redo,
-    run: () => void page.redo()
+    title: "Redo", area: "Corrections" as const,
+    run: () => correcting(() => (store.state?.can_redo ? void page.redo() : page.say("Nothing to do again.")))
   };
   addCommands(
     {
@@ -236,11 +244,11 @@ function addPageCommands(page: Page, { picking, layout, address, open, find }: M
     { id: "history", title: "History", area: "Corrections", run: () => open("history") },
     {
       id: "label", key: "l", title: "Label what is selected", area: "Corrections",
-      when: () => page.canEdit() && store.shown.selection.length > 0, run: () => labelSelection(page)
+      when: () => store.shown.selection.length > 0, run: () => correcting(() => labelSelection(page))
     },
     {
       id: "undo", key: "Ctrl+z", title: "Undo", area: "Corrections",
-      when: () => page.canEdit() && !!store.state?.can_undo, run: () => void page.undo()
+      run: () => correcting(() => (store.state?.can_undo ? void page.undo() : page.say("Nothing to undo.")))
     },
     { id: "redo", key: "Ctrl+y", ...redo },
     { id: "redo-shift", key: "Ctrl+Z", ...redo });

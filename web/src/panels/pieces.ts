@@ -43,7 +43,7 @@ export function partButton(page: Page, content: Content, row: number): HTMLEleme
     el("span", { class: "soft" }, percent(content.parts.confidence[row])));
 }
 
-/** Buttons that every selection has: fly, hide, isolate. */
+/** Buttons that every selection has: fly, hide, show alone. */
 export function viewButtons(page: Page, rows: readonly number[]): HTMLElement {
   const { store } = page;
   const isolated = store.shown.isolated;
@@ -51,7 +51,7 @@ export function viewButtons(page: Page, rows: readonly number[]): HTMLElement {
   return el("div", { class: "buttons", role: "group", "aria-label": "View" },
     button("Fly to", "Move so that it fills the view (f)", () => page.view?.flyTo(rows), "fly"),
     button(
-      already ? "Show all" : "Isolate", already ? "Show the rest again" : "Show only this (i)",
+      already ? "Show all" : "Show alone", already ? "Show the rest again" : "Show only this (i)",
       () => store.set({ isolated: already ? null : new Set(rows) }), "isolate-parts"
     ),
     button(

@@ -15,8 +15,8 @@ export interface Sent {
 export interface QueueIo {
   load(): Promise<Question[]>;
   send(question: Question, choice: Choice): Promise<Sent>;
-  /** Takes back the correction that led to this version; false where that can't be done any more. */
-  takeBack(version: number): Promise<boolean>;
+  /** Takes back the correction that led to this version: the version after it, null where it can't be done any more. */
+  takeBack(version: number): Promise<number | null>;
 }
 
 export interface Answered {
@@ -116,7 +116,13 @@ export class Queue {
     await this.chain;
     const last = this.past.at(-1);
     if (!last) return false;
-    if (last.version !== null && !(await this.io.takeBack(last.version))) return false;
+    if (last.version !== null) {
+      const version = await this.io.takeBack(last.version);
+      if (version === null) return false;
+      // The plant is again as it was before it: where that was the answer before, it can be taken back in turn.
+      const before = this.past.filter((told) => told !== last && told.version !== null).at(-1);
+      if (before?.version === last.version - 1) before.version = version;
+    }
     this.restore(last);
     this.changed();
     return true;

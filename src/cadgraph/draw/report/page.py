@@ -16,7 +16,7 @@ from cadgraph.config import ReportConfig
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Connected
 from cadgraph.model.scene import Scene
-from cadgraph.query.summary import connection_words, end_words, summarize
+from cadgraph.query.summary import connection_words, end_words, share_words, summarize
 
 if TYPE_CHECKING:
     from cadgraph.draw.report.pictures import Picture
@@ -115,7 +115,7 @@ def _facts(graph: SceneGraph) -> dict[str, Any]:
         "clusters": summary.n_clusters,
         "with_pipes": summary.n_with_pipes,
         "extent": " × ".join(f"{length:.2f}" for length in extent),
-        "labelled": summary.n_labelled / len(parts) if parts else 0.0,
+        "labelled": share_words(summary.n_labelled, len(parts)),
         "units": sum(len(tags) for tags in summary.units.values()),
         "unit_types": [_plural(len(tags), name) for name, tags in summary.units.items()],
         "without_line": summary.without_line,
