@@ -30,7 +30,10 @@ export class TopBar {
       onclick: () => run("history")
     }
   );
-  private readonly badge = el("span", { class: "read-only", "data-test": "read-only", hidden: true });
+  private readonly badge = el("button", {
+    type: "button", class: "read-only", "data-test": "read-only", hidden: true,
+    onclick: () => this.page.say(this.page.store.state?.read_only ?? "", "bad"),
+  });
   private readonly theme = iconButton("moon", "Dark", () => switchTheme(this.page.store), "theme");
   private readonly table = paneButton("table", "Table", "Table of parts, units and lines (b)", "table");
   private readonly drawing = paneButton("schematic", "Schematic", "The schematic beside the plant (d)", "drawing");
