@@ -52,6 +52,10 @@ def test_a_tank_without_a_valve_cannot_be_isolated():
     assert [(opening.name, opening.port) for opening in found.openings] == [("T-001", "N1")]
     assert closed(found) == ["V-001"]
     assert isolation_lines(found)[0] == "P-001 can't be isolated wholly:"
+    assert any(
+        line.startswith("in one section with it, not shut off while ways stay open: ")
+        for line in isolation_lines(found)
+    )
 
 
 @pytest.mark.parametrize(("kind", "openings"), [("open", 1), ("unknown", 1), ("blind", 0)])

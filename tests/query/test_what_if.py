@@ -238,6 +238,14 @@ def test_a_valve_with_a_line_on_one_side_makes_it_doubtful():
     assert not found.known
 
 
+def test_what_can_feed_nothing_is_no_source():
+    nodes = [unit("T-001"), unit("V-001", "gate valve"), unit("G-001", "pressure gauge"), terminal(1, kind="blind")]
+    graph = network(nodes, chain("T-001 V-001 G-001 X1"))
+    for name, what in (("X1", "a blind end"), ("G-001", "a gauge")):
+        with pytest.raises(ValueError, match=f"is {what}, which feeds nothing"):
+            what_if(graph, "V-001", ["terminal-001" if name == "X1" else name])
+
+
 def test_wrong_questions_are_refused():
     graph = network([unit("T-001"), unit("V-001", "gate valve"), unit("V-002"), terminal(1)], chain("T-001 V-001 X1"))
     with pytest.raises(ValueError, match="T-001 is no valve but a tank"):

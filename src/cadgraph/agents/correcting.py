@@ -27,6 +27,7 @@ from cadgraph.session.reopen import FormerLabeler, config_of, reopen
 from cadgraph.session.run import write_graph
 from cadgraph.session.session import Change, Session
 from cadgraph.session.source import find_source
+from cadgraph.session.told import tell_renamed
 
 __all__ = ["Desk"]
 
@@ -228,6 +229,7 @@ def _told(what: str, change: Change, before: SceneGraph, now: SceneGraph, dry_ru
         "changed": changed,
         "units_gone": gone,
         "units_new": new,
+        "renamed": tell_renamed(before, now),
         "connections_before": lines[before],
         "connections_after": lines[now],
         "regrouped": change.regrouped,
@@ -237,6 +239,8 @@ def _told(what: str, change: Change, before: SceneGraph, now: SceneGraph, dry_ru
     rows += [f"  {row['part']}\t{row['label']}" for row in changed[:_MOST_NAMED]]
     rows += [f"  and {len(changed) - _MOST_NAMED} more"] * (len(changed) > _MOST_NAMED)
     rows += [f"units gone: {_named(gone)}"] * bool(gone) + [f"units new: {_named(new)}"] * bool(new)
+    if renamed := tell_renamed(before, now):
+        rows.append(f"tags mean other units than before: {renamed}")
     if lines[before] != lines[now]:
         rows.append(f"connections: {lines[before]} before, {lines[now]} after")
     if change.regrouped:

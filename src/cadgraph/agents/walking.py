@@ -233,7 +233,9 @@ def isolate(
         )
         for v in found.valves
     ]
-    rows += _listed("shut off too", "", found.shut_off_names) or [row("shut off too", "", "nothing else")]
+    # While ways stay open, what hangs together with it is as little shut off as it is itself.
+    what = "same section, NOT shut off" if found.openings else "shut off too"
+    rows += _listed(what, "", found.shut_off_names) or [row(what, "", "nothing else")]
     rows += _listed("lines", "", found.lines)
     return Answer(page_of([f"isolate {_told(plant, place)}: {verdict}"], rows, [], page), isolation_values(found))
 

@@ -164,6 +164,8 @@ class BatchSolver:
         usable[self.pumps] &= ~starved
         turning = given.one_way & usable
         opened = np.where(turning, last.open, usable)
+        # What a pump gives at no flow stands behind it, whatever was shut before.
+        opened[self.pumps] = usable[self.pumps]
         n = given.square.shape[1]
         # Until the end, 'cavitating' holds the pumps that give only what reaches them.
         found = Solutions(
@@ -469,7 +471,10 @@ class _Round:
         turning[self.solver.pumps] &= ~self.choked
         with np.errstate(invalid="ignore"):
             pressing = head[circuit.start] - head[circuit.end] - self.given.offset
-            turned: Bools = turning & np.where(opened, flow < -BACKFLOW, pressing > LIFT)
+            closing, opening = turning & opened & (flow < -BACKFLOW), turning & ~opened & (pressing > LIFT)
+        # A pump presses against the check valve behind it: that shuts first, and then nothing flows back.
+        closing[self.solver.pumps] &= ~np.delete(closing, self.solver.pumps, axis=0).any(axis=0)
+        turned: Bools = closing | opening
         return turned
 
     def _choking(self, flow: Floats, head: Floats) -> tuple[Bools, Bools]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from numbers import Real
 
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Unit
@@ -35,16 +36,17 @@ class Joints:
             ValueError: no joint is called so, or an angle is no number.
         """
         found = {}
-        for name, angle in joints.items():
+        given: Mapping[str, object] = joints
+        for name, angle in given.items():
             unit = self._units.get(name)
             if unit is None:
                 raise ValueError(f"no joint is called {name!r}; there are {', '.join(self._units) or 'none'}")
-            if not math.isfinite(angle):
+            if not isinstance(angle, Real) or not math.isfinite(float(angle)):
                 raise ValueError(f"joint {name}: {angle} is no angle")
             moves = unit.mechanism
             if moves is None or moves.open is None or moves.shut is None or moves.open == moves.shut:
                 continue
-            found[unit.tag] = min(max((angle - moves.shut) / (moves.open - moves.shut), 0.0), 1.0)
+            found[unit.tag] = min(max((float(angle) - moves.shut) / (moves.open - moves.shut), 0.0), 1.0)
         return found
 
     def angles(

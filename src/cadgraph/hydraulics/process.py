@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
+from numbers import Real
 from pathlib import Path
 
 from cadgraph.hydraulics.balance import Balance, default_scenario
@@ -165,9 +166,7 @@ class Process:
         found: dict[str, float] = {}
         for name, value in commands.items():
             tag = self._tag(name)
-            if isinstance(value, bool) or not 0 <= value <= 1:
-                raise ValueError(f"{tag}={value}: give a number from 0 (shut, stopped) to 1 (open, full speed)")
-            found[tag] = float(value)
+            found[tag] = _share(tag, value)
         for tag, value in found.items():
             if tag in self.balance.speed:
                 self._changed |= self.balance.speed[tag] != value
@@ -293,3 +292,10 @@ class Process:
         gauges = self.scenario.gauges
         unknown = sum(gauges[tag].measures == "pressure" for tag, value in self._measured.items() if value is None)
         return remarks_of(self.balance, cavitating, unknown)
+
+
+def _share(tag: str, value: object) -> float:
+    """How far open or how fast, once it is sure to be a number that can be."""
+    if isinstance(value, bool) or not isinstance(value, Real) or not 0 <= float(value) <= 1:
+        raise ValueError(f"{tag}={value}: give a number from 0 (shut, stopped) to 1 (open, full speed)")
+    return float(value)

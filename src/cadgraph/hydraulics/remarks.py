@@ -45,7 +45,9 @@ def _of_pumps(balance: Balance, cavitating: Collection[str]) -> Iterator[str]:
         yield f"{tag} cavitates: " + ("nothing flows to it" if none else "it draws more than flows to it")
     for tag, speed in balance.speed.items():
         if speed > SHUT and tag in tags and tag not in cavitating and balance.through(tag) < TRICKLE:
-            yield f"{tag} runs against shut valves: nothing flows through it"
+            lift = balance.difference(tag)
+            gives = "" if lift is None else f" than the {-lift:.2f} bar that it gives"
+            yield f"{tag} runs, and nothing flows through it: valves are shut, or more stands against it{gives}"
         if speed <= SHUT and tag in tags and abs(balance.through(tag)) > TRICKLE:
             back = " back" if balance.through(tag) < 0 else ""
             yield f"{tag} stands still, and {abs(balance.through(tag)) * 3600:.2f} m3/h flow{back} through it"

@@ -176,6 +176,8 @@ class Solver:
         flow = self._first
         if last is not None:
             opened[turning] = last.open[turning]
+            # What a pump gives at no flow stands behind it, whatever was shut before.
+            opened[self._pumps] = usable[self._pumps]
             choked = tuple(pump for pump in last.cavitating if opened[pump] and condition.one_way[pump])
             flow = last.flow
         let_go: Counter[int] = Counter()
@@ -481,6 +483,9 @@ class Solver:
         pressing = head[self.circuit.start] - head[self.circuit.end] - condition.offset
         closing = turning & opened & (flow < -BACKFLOW)
         opening = turning & ~opened & (pressing > LIFT)
+        if np.delete(closing, self._pumps).any():
+            # A pump presses against the check valve behind it: that shuts first, and then nothing flows back.
+            closing[self._pumps] = False
         turned = closing | opening
         if one_by_one and turned.any():
             size = np.where(closing, -flow / BACKFLOW, np.where(opening, pressing / LIFT, 0.0))

@@ -9,6 +9,7 @@ from typing import Any
 from cadgraph._io.text import printable
 from cadgraph.hydraulics.network import LinkKind
 from cadgraph.hydraulics.process import Process
+from cadgraph.hydraulics.remarks import TRICKLE
 from cadgraph.hydraulics.settings import Scenario
 from cadgraph.model.pipework import Arc
 from cadgraph.query.text import aligned
@@ -89,7 +90,9 @@ def _pumps(process: Process) -> Iterator[Standing]:
             continue
         lift = process.balance.difference(tag)
         notes = [] if process.state.speed[tag] > 0 else ["stands still"]
-        notes += [] if lift is None or notes else [f"{-lift:+.2f} bar"]
+        # A pump that nothing reaches gives nothing: what stands behind it is what was shut in there.
+        starved = tag in process.state.cavitating and process.balance.through(tag) < TRICKLE
+        notes += [] if lift is None or notes or starved else [f"{-lift:+.2f} bar"]
         notes += ["cavitates"] if tag in process.state.cavitating else []
         yield Standing(tag, "pump", process.balance.through(tag) * 3600, "m3/h", ", ".join(notes))
 

@@ -215,7 +215,9 @@ def isolation_lines(found: Isolation, *, hints: bool = True) -> list[str]:
     lines = f" (lines {', '.join(found.lines)})" if found.lines else ""
     more = " (--check-valves counts it)" if hints else ""
     notes = (f"note: {r}{more if r.endswith(PASSED_OVER) else ''}" for r in found.remarks)
-    return [*told, *_closing_lines(found), *_passed_lines(found), f"shut off with it: {shut}{lines}", *notes]
+    # While ways stay open, what hangs together with it is as little shut off as it is itself.
+    what = "in one section with it, not shut off while ways stay open" if found.openings else "shut off with it"
+    return [*told, *_closing_lines(found), *_passed_lines(found), f"{what}: {shut}{lines}", *notes]
 
 
 def _closing_lines(found: Isolation) -> list[str]:

@@ -132,6 +132,12 @@ def _given(network: Network, sources: Sequence[str], closed: Collection[str]) ->
             raise ValueError(f"{network.name(place)} is closed and can't be a source as well")
         if not network.arcs(place):
             raise Unconnected(network.name(place), "what it feeds")
+        node = network.places[place]
+        if network.is_gauge(place) or (isinstance(node, Terminal) and node.kind == "blind"):
+            what = "a gauge" if network.is_gauge(place) else "a blind end"
+            raise ValueError(
+                f"{network.name(place)} is {what}, which feeds nothing; name a tank, an open end or a unit"
+            )
     return tuple(places)
 
 

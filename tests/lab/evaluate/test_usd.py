@@ -30,6 +30,19 @@ def written(tmp_path, text, name="scene.usda"):
     return path
 
 
+def test_a_label_layer_over_a_scene_elsewhere_is_read_where_its_folder_is_named(tmp_path):
+    mesh = 'def Mesh "a"\n{\nint[] faceVertexCounts = [3]\nint[] faceVertexIndices = [0, 1, 2]\n'
+    points = "point3f[] points = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]\n}"
+    written(tmp_path, mesh + points)
+    (tmp_path / "out").mkdir()
+    layer = tmp_path / "out" / "semantics.usda"
+    label = 'prepend apiSchemas = ["SemanticsLabelsAPI:class"])\n{\ntoken[] semantics:labels:class = ["tank"]\n}\n}'
+    layer.write_text(f'#usda 1.0\n(subLayers = [@../scene.usda@])\nover "W"\n{{\nover "a" ({label}\n')
+    with pytest.raises(LoadError):
+        truth_from_usd(layer)
+    assert labels(truth_from_usd(layer, asset_roots=[tmp_path])) == {"/W/a": ("Tank", "tank")}
+
+
 def labels(truth):
     return {row.mesh: (row.group, row.name) for row in truth.meshes}
 

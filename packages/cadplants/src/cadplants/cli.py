@@ -34,7 +34,7 @@ def make_plant(
         typer.Option("--output", "-o", metavar="FILE", help="The scene, e.g. field.usdc; its suffix is its format."),
     ],
     preset: Annotated[
-        str, typer.Option(help="skid, riser, tank, pumps, loop, manifold, station, rack or field.")
+        str, typer.Option(help="skid, riser, tank, pumps, loop, manifold, station, rack, gallery, field or assortment.")
     ] = "skid",
     seed: Annotated[int, typer.Option(min=0, help="Of everything that varies.")] = 0,
     style: Annotated[

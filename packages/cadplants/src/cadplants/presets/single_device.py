@@ -29,8 +29,11 @@ def family_called(name: str) -> Family:
         return ALL_FAMILIES[name]
     near = difflib.get_close_matches(name, ALL_FAMILIES, 3, 0.4)
     kinds = [other for other in ALL_FAMILIES if other.startswith(f"{name}/")][:5]
-    said = ", ".join(dict.fromkeys(kinds + near)) or "'cadgraph environment devices' lists them"
-    raise ValueError(f"{name!r} is no family of devices; there are {said}")
+    said = ", ".join(dict.fromkeys(kinds + near))
+    meant = f"did you mean {said}? " if said else ""
+    raise ValueError(
+        f"{name!r} is no family of devices; {meant}'cadgraph environment devices' lists all {len(ALL_FAMILIES)}"
+    )
 
 
 def usual_size(family: Family) -> int:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from cadgraph.config import LoadConfig
 from cadgraph.errors import LoadError
 from cadgraph.load import load
 from cadgraph.model.scene import Floats, Scene
@@ -25,7 +26,9 @@ _CLASS, _GROUP, _UNIT = "class", "cad_group", "cad_unit"
 _POINTS = {"Junctions": "junction", "Terminals": "terminal"}
 
 
-def truth_from_usd(path: str | Path, vocabulary: Vocabulary | None = None) -> Truth:
+def truth_from_usd(
+    path: str | Path, vocabulary: Vocabulary | None = None, *, asset_roots: Sequence[str | Path] = ()
+) -> Truth:
     """Reads the labels in a USD file as a truth.
 
     Labels are those of ``UsdSemantics.LabelsAPI``, on the mesh or else on the nearest prim above it: ``class`` with a
@@ -37,6 +40,7 @@ def truth_from_usd(path: str | Path, vocabulary: Vocabulary | None = None) -> Tr
     Args:
         path: the file, or a label layer over it (``semantics.usda``).
         vocabulary: the label tree; the built-in one if None.
+        asset_roots: folders that the file may refer to beside its own, as a label layer does over a scene elsewhere.
 
     Returns:
         A row for each mesh, with the path that ``cadgraph.load`` gives it; without group where nothing in the
@@ -46,7 +50,7 @@ def truth_from_usd(path: str | Path, vocabulary: Vocabulary | None = None) -> Tr
         LoadError: the file can't be read, or no mesh in it carries a label of the vocabulary.
     """
     # Loading first also proves, in a process of its own, that the USD library survives the file.
-    scene = load(path)
+    scene = load(path, LoadConfig(asset_roots=tuple(map(str, asset_roots))))
     return _read(path, scene, _Words(vocabulary or default_vocabulary()))
 
 
