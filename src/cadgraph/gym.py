@@ -199,10 +199,7 @@ class KeepLevel(Task):
             raise ValueError(f"{self.tank} is no tank; there are {', '.join(tanks) or 'none'}")
         setting = process.scenario.tanks[tag]
         self._row, self._height = tanks.index(tag), setting.height
-        balance = process.balance
-        outlets = [
-            n.height for n in balance.circuit.nozzles if (n.tag, n.port) in balance.places.outlets and n.tag == tag
-        ]
+        outlets = [nozzle.height for nozzle in process.balance.outlets(tag)]
         self._dry = max(0.0, min(outlets, default=setting.bottom) - setting.bottom)
         self._goal = setting.level if self.level is None else self.level
         if not self._dry < self._goal < setting.height:

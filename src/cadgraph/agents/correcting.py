@@ -220,6 +220,7 @@ def _said(part: Part) -> str:
 def _told(what: str, change: Change, before: SceneGraph, now: SceneGraph, dry_run: bool) -> Answer:
     """What a correction changed, or would change."""
     gone, new = _difference(_units(before), _units(now))
+    renamed = tell_renamed(before, now)
     lines = {graph: len(graph.of_kind(Connected)) for graph in (before, now)}
     changed = [{"part": part.id, "label": _said(part), "corrected": _is_own(part)} for part in change.changed]
     values = {
@@ -229,7 +230,7 @@ def _told(what: str, change: Change, before: SceneGraph, now: SceneGraph, dry_ru
         "changed": changed,
         "units_gone": gone,
         "units_new": new,
-        "renamed": tell_renamed(before, now),
+        "renamed": renamed,
         "connections_before": lines[before],
         "connections_after": lines[now],
         "regrouped": change.regrouped,
@@ -239,7 +240,7 @@ def _told(what: str, change: Change, before: SceneGraph, now: SceneGraph, dry_ru
     rows += [f"  {row['part']}\t{row['label']}" for row in changed[:_MOST_NAMED]]
     rows += [f"  and {len(changed) - _MOST_NAMED} more"] * (len(changed) > _MOST_NAMED)
     rows += [f"units gone: {_named(gone)}"] * bool(gone) + [f"units new: {_named(new)}"] * bool(new)
-    if renamed := tell_renamed(before, now):
+    if renamed:
         rows.append(f"tags mean other units than before: {renamed}")
     if lines[before] != lines[now]:
         rows.append(f"connections: {lines[before]} before, {lines[now]} after")

@@ -7,7 +7,7 @@ import math
 import numpy as np
 import numpy.typing as npt
 
-from cadgraph.hydraulics.network import Circuit, LinkKind
+from cadgraph.hydraulics.network import Circuit, LinkKind, Nozzle
 from cadgraph.hydraulics.scenario import guess_scenario, with_pressures
 from cadgraph.hydraulics.settings import Characteristic, Scenario
 from cadgraph.hydraulics.solve import Condition, Solution, Solver
@@ -202,6 +202,10 @@ class Balance:
         if node in self._emptied:
             return 0.0
         return max(self.scenario.pressure(head - float(self.circuit.height[node])), self.scenario.fluid.vapour)
+
+    def outlets(self, tag: str) -> list[Nozzle]:
+        """The nozzles of a tank that something is known to flow out of."""
+        return [n for n in self.circuit.nozzles if n.tag == tag and (tag, n.port) in self.places.outlets]
 
     def measure(self, tag: str) -> float | None:
         """What a gauge would show if it had no lag and no end of its scale, in its unit; None where nobody knows.

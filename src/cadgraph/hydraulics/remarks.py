@@ -77,13 +77,7 @@ def _of_tanks(balance: Balance) -> Iterator[str]:
         elif tank.bottom + level <= lowest:
             yield f"{tag} is down to its lowest nozzle: nothing leaves it"
         else:
-            dry = [
-                nozzle.port
-                for nozzle in balance.circuit.nozzles
-                if nozzle.tag == tag
-                and nozzle.height >= tank.bottom + level
-                and (tag, nozzle.port) in balance.places.outlets
-            ]
+            dry = [nozzle.port for nozzle in balance.outlets(tag) if nozzle.height >= tank.bottom + level]
             if dry:
                 yield f"{tag} is down to its outlet {', '.join(dry)}: nothing leaves it there"
 

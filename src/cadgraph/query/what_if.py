@@ -133,8 +133,8 @@ def _given(network: Network, sources: Sequence[str], closed: Collection[str]) ->
         if not network.arcs(place):
             raise Unconnected(network.name(place), "what it feeds")
         node = network.places[place]
-        if network.is_gauge(place) or (isinstance(node, Terminal) and node.kind == "blind"):
-            what = "a gauge" if network.is_gauge(place) else "a blind end"
+        blind = isinstance(node, Terminal) and node.kind == "blind"
+        if what := "a blind end" if blind else "a gauge" if network.is_gauge(place) else "":
             raise ValueError(
                 f"{network.name(place)} is {what}, which feeds nothing; name a tank, an open end or a unit"
             )

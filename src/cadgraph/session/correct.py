@@ -207,6 +207,5 @@ def _changed(
 def _consequences(before: SceneGraph, now: SceneGraph) -> tuple[str, ...]:
     known = {note.message for note in before.diagnostics}
     against = [note.message for note in now.diagnostics if note.code in _DISAGREE and note.message not in known]
-    renamed = {unit.tag for unit in before.units()} != {unit.tag for unit in now.units()}
-    lines = tell_lines(before, now) if renamed else ""
-    return tuple(filter(None, (tell_units(before, now), tell_flow(before, now), lines, *against)))
+    came = tell_units(before, now), tell_flow(before, now), tell_lines(before, now)
+    return tuple(filter(None, (*came, *against)))

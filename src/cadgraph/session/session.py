@@ -409,9 +409,8 @@ def _told(what: str, before: SceneGraph, now: SceneGraph, new: Sequence[Edit], c
     named = [now.part_with(edit.mesh) for edit in new if isinstance(edit, Correction)]
     followers = tell_followers([part for part in named if part is not None], changed)
     renamed = tell_renamed(before, now, {edit.tag for edit in new if isinstance(edit, Tag)})
-    lines = tell_lines(before, now) if renamed or any(isinstance(edit, Tag) for edit in new) else ""
-    came = tell_units(before, now), tell_flow(before, now)
-    return "; ".join(filter(None, (what, followers, *came, renamed, lines)))
+    came = tell_units(before, now), tell_flow(before, now), renamed, tell_lines(before, now)
+    return "; ".join(filter(None, (what, followers, *came)))
 
 
 def _refuse_unmet(graph: SceneGraph, new: Sequence[Edit], what: str) -> None:

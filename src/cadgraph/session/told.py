@@ -51,9 +51,7 @@ def tell_renamed(before: SceneGraph, now: SceneGraph, given: Collection[str] = (
         now: one of the same scene.
         given: tags that somebody just gave, of which nothing need be told.
     """
-    old = {_meshes(before, unit.parts): unit.tag for unit in before.units()}
-    pairs = [(old.get(_meshes(now, unit.parts)), unit.tag) for unit in now.units()]
-    renamed = [(was, tag) for was, tag in pairs if was is not None and was != tag and tag not in given]
+    renamed = [(was, tag) for was, tag in _renamed(before, now) if tag not in given]
     runs: list[list[tuple[str, str]]] = []
     for was, tag in sorted(renamed, key=lambda pair: natural_key(pair[0])):
         if runs and _next(runs[-1][-1][0], was) and _next(runs[-1][-1][1], tag):
@@ -72,6 +70,8 @@ def tell_lines(before: SceneGraph, now: SceneGraph) -> str:
         before: a graph.
         now: one of the same scene; lines that only one of both has are passed over.
     """
+    if not _renamed(before, now):
+        return ""
     old, new = _lines(before), _lines(now)
     moved = [(old[key], number) for key, number in new.items() if old.get(key, number) != number]
     told = [f"line {was} is now {number}" for was, number in moved[:_MOST_LINES]]
@@ -110,6 +110,13 @@ def tell_flow(before: SceneGraph, now: SceneGraph) -> str:
     lost = sum(new[key] is None for key in known)
     told += [f"which way it flows isn't known any more in {_counted(lost)}"] if lost else []
     return "; ".join(told)
+
+
+def _renamed(before: SceneGraph, now: SceneGraph) -> list[tuple[str, str]]:
+    """Both tags of each unit of the same parts that has another one than before."""
+    old = {_meshes(before, unit.parts): unit.tag for unit in before.units()}
+    pairs = [(old.get(_meshes(now, unit.parts)), unit.tag) for unit in now.units()]
+    return [(was, tag) for was, tag in pairs if was is not None and was != tag]
 
 
 def _counted(count: int) -> str:
