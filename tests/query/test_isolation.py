@@ -2,8 +2,9 @@ import pytest
 
 import graphs
 from cadgraph.errors import Unconnected
-from cadgraph.query import find_isolation
-from cadgraph.query.text import isolation_lines
+from cadgraph.model.records import Adjacent, Port
+from cadgraph.query import Network, find_isolation
+from cadgraph.query.text import gap_lines, isolation_lines
 from networks import chain, joint, junction, network, pumping, terminal, unit
 
 
@@ -318,6 +319,67 @@ def test_a_valve_of_which_one_side_is_known_is_closed():
 def test_what_lies_behind_a_valve_is_fed_where_a_unit_there_has_too_few_lines():
     graph = pump("T-001 V-001 J1 P-001 V-003 T-002", "J1 V-002 V-004")
     assert closed(find_isolation(graph, "P-001")) == ["V-001", "V-002", "V-003"]
+
+
+def with_nozzles(*ports, closed=False, touching=()):
+    """A tank with a nozzle at x = 0 and one at x = 1, and lines by the ports at these places."""
+    names = [("nozzle", 0.0), ("flange", 0.1), ("nozzle", 1.0), ("shell", 0.5)]
+    names += [("blind flange", 1.1)] if closed else []
+    parts = [graphs.part(k, label=graphs.label("Tank", name), size=0.1) for k, (name, _) in enumerate(names)]
+    parts = [
+        part.model_copy(update={"aabb": ((x, 0.0, 0.0), (x + 0.1, 0.1, 0.1))})
+        for part, (_, x) in zip(parts, names, strict=True)
+    ]
+    tank = unit("T-001").model_copy(
+        update={
+            "parts": ("part-0", "part-2", "part-3"),
+            "ports": tuple(Port(name=f"N{k}", point=(x, 0.05, 0.05), diameter=0.1) for k, x in enumerate(ports, 1)),
+        }
+    )
+    pairs = [("part-0", "part-1"), ("part-0", "part-3"), ("part-2", "part-3")]
+    pairs += [("part-2", "part-4")] if closed else []
+    touch = [Adjacent(source=a, target=b, distance=0.0, point=(0.0, 0.0, 0.0)) for a, b in pairs]
+    edges = [edge for k, _ in enumerate(ports, 1) for edge in chain(f"T-001.N{k} V-00{k} X{k}")]
+    ends = [node for k, _ in enumerate(ports, 1) for node in (unit(f"V-00{k}", GATE), terminal(k))]
+    return network([*parts, tank, *ends], [*touch, *edges])
+
+
+def test_a_nozzle_without_a_line_is_a_doubt():
+    (doubt,) = find_isolation(with_nozzles(0.2), "T-001").doubts
+    assert doubt.text == "its nozzle part-2 has no line: what feeds it there can't be told"
+    assert find_isolation(with_nozzles(0.2), "T-001").isolated is None
+    assert "note: a nozzle without a line has T-001" in [
+        f"note: {line}" for line in gap_lines(Network(with_nozzles(0.2)))
+    ]
+
+
+@pytest.mark.parametrize(("ports", "closed"), [((0.2, 1.0), False), ((0.2,), True)])
+def test_a_nozzle_with_a_line_or_a_blind_flange_is_none(ports, closed):
+    assert find_isolation(with_nozzles(*ports, closed=closed), "T-001").doubts == ()
+
+
+@pytest.mark.parametrize(("size", "isolated"), [(80, True), (100, None), (None, True)])
+def test_a_gauge_at_the_end_of_a_line_too_wide_for_a_tap_is_a_doubt(size, isolated):
+    nodes = [unit("E-001"), unit("V-001", GATE), unit("G-001", "pressure gauge"), junction(1), terminal(1)]
+    graph = network(nodes, [*chain("E-001.N1 J1 V-001 X1"), *chain("J1 E-001.N2"), *chain("J1 G-001", size=size)])
+    found = find_isolation(graph, "E-001")
+    assert found.isolated is isolated
+    assert [doubt.name for doubt in found.doubts] == ([] if isolated else ["G-001"])
+    (gauge,) = [arc for arc in Network(graph).arcs("junction-001") if arc.end == "unit-G-001"]
+    assert Network(graph).is_tap(gauge) is bool(isolated)
+
+
+def test_an_opening_names_all_ports_that_lead_there():
+    found = find_isolation(pump("X1 J1 P-001.N1", "J1 P-001.N2"), "P-001")
+    assert [(opening.port, opening.other_ports) for opening in found.openings] == [("N1", ("N2",))]
+    assert "by N1, N2" in isolation_lines(found)[1]
+
+
+def test_a_valve_that_is_closed_as_asked_is_not_among_those_not_relied_on():
+    graph = pump("X1 V-001 J1 P-001.N1", "J1 V-002.N1 X2", "V-002.N1 P-001.N2", kinds={"V-002": None}.items())
+    found = find_isolation(graph, "P-001", assume_shutoff=True)
+    assert closed(found) == ["V-001", "V-002"]
+    assert found.passed == ()
 
 
 def test_a_relief_valve_that_blows_into_the_open_is_no_doubt():

@@ -211,10 +211,10 @@ def isolate(
         verdict = f"NOT SURE: {_count(len(found.doubts), 'doubt')}; {close}"
     else:
         verdict = close if n_valves else "no valve has to be closed: nothing that could flow to it was found"
-    rows = [
-        f"{row('stays open', o.name, o.what, o.port or '-', _metres(o.distance))}\t{cell(o.why, _TEXT)}"
-        for o in found.openings
-    ]
+    rows = []
+    for o in found.openings:
+        ports = ", ".join((o.port, *o.other_ports)) if o.port else "-"
+        rows.append(f"{row('stays open', o.name, o.what, ports, _metres(o.distance))}\t{cell(o.why, _TEXT)}")
     rows += _doubt_rows(found.doubts)
     rows += [f"note\t{cell(remark, _TEXT)}" for remark in found.remarks]
     rows += [

@@ -19,6 +19,8 @@ Flow = Literal["along", "against", "unknown"]
 Direction = Literal["downstream", "upstream"]
 Place = Unit | Junction | Terminal
 
+_WIDEST_TAP = 80  # DN; instruments are tapped by 15 to 50, level transmitters with a remote seal by up to 80
+
 
 @dataclass(frozen=True)
 class Arc:
@@ -156,9 +158,17 @@ class Pipework:
         return frozenset(
             index
             for place in self.places
-            if self.is_gauge(place) and len(self.arcs(place)) == 1
+            if self.is_gauge(place) and len(self.arcs(place)) == 1 and not self.ends_line(place)
             for index in self._tap_from(self.arcs(place)[0])
         )
+
+    def ends_line(self, place: str) -> bool:
+        """Whether a gauge is all that was found at the end of a line too wide for a tap (more than DN 80).
+
+        What is taken for a gauge there may be something else, and the line may go on behind it.
+        """
+        arcs = self.arcs(place)
+        return self.is_gauge(place) and len(arcs) == 1 and max(arcs[0].sizes, default=0) > _WIDEST_TAP
 
     def is_tap(self, arc: Arc) -> bool:
         """Whether a connection leads to nothing but an instrument.

@@ -6,16 +6,22 @@ from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Literal
 
+import numpy as np
+
 from cadgraph.model.ports import least_ports, port_word
-from cadgraph.model.records import Joint, Unit
+from cadgraph.model.records import Joint, Part, Port, Unit
 from cadgraph.query.network import Network
 
-__all__ = ["Doubt", "few_ports", "likely_joints", "open_sides", "unconnected"]
+__all__ = ["Doubt", "bare_nozzles", "few_ports", "likely_joints", "open_sides", "unconnected"]
 
 # From this score on a joint that was not made makes an answer doubtful (ours): one in ten of such joins after all,
 # which is too much to open a pump on.
 _LIKELY = 0.1
 _NUMBERS = ("no", "one", "two", "three")
+# What a nozzle goes on in until a line begins, and what closes it, by their labels.
+_NOZZLE = frozenset({"nozzle", "flange", "gasket"})
+_CLOSURES = frozenset({"blind flange", "pipe cap"})
+_NEAR = 0.01  # [m]; so near to a nozzle a line that joins there begins, or nearer than a quarter of its bore
 
 About = Literal["feeds", "follows"]
 
@@ -50,20 +56,53 @@ def open_sides(network: Network, places: Collection[str], about: About = "follow
         about: whether the answer is about what ``feeds`` them or what ``follows``.
 
     Returns:
-        Units that have fewer lines than their kind needs, in the order of the places; then joints that were not made
-        although they are likely, between a part of the piece and one outside, the likeliest first.
+        Units that have fewer lines than their kind needs, in the order of the places; nozzles without a line, likewise;
+        then joints that were not made although they are likely, between a part of the piece and one outside, the
+        likeliest first.
     """
     short = [doubt for place in places if (doubt := _short(network, place, about)) is not None]
-    return (*short, *_unjoined(network, places, about))
+    told = {doubt.place for doubt in short}
+    bare = [doubt for place in places if place not in told for doubt in _bare(network, place, about)]
+    return (*short, *bare, *_unjoined(network, places, about))
 
 
 def few_ports(network: Network, place: str) -> tuple[int, int] | None:
-    """How many ports of a unit have a line and how many its kind needs; None where that is enough, or it is no unit."""
+    """How many ports of a unit have a line and how many its kind needs; None where that is enough, or it is no unit.
+
+    A gauge at the end of a line that is too wide for a tap needs a second one: it stands in the line, or is no gauge.
+    """
     node = network.places[place]
     if not isinstance(node, Unit):
         return None
     used, least = network.ports_in_use(place), least_ports(node.unit_type, node.kind)
+    if network.ends_line(place):
+        least = 2
     return (used, least) if used < least else None
+
+
+def bare_nozzles(network: Network, place: str) -> list[tuple[str, ...]]:
+    """The nozzles of a unit at which no line was found and that nothing closes, each as the ids of its parts.
+
+    Args:
+        network: of a finished graph.
+        place: id of a node; what is no unit has none.
+
+    Returns:
+        In the order of the unit's parts; what is labelled otherwise than a nozzle is not seen.
+    """
+    unit = network.places[place]
+    if not isinstance(unit, Unit) or port_word(unit.unit_type) != "nozzle":
+        return []
+    found: list[tuple[str, ...]] = []
+    seen: set[str] = set()
+    for part in unit.parts:
+        if part in seen or _name(network.graph.part(part)) != "nozzle":
+            continue
+        pieces, closed = _nozzle_at(network, part)
+        seen.update(pieces)
+        if not closed and not any(_starts_at(port, piece) for port in unit.ports for piece in pieces.values()):
+            found.append(tuple(piece for piece in unit.parts if piece in pieces))
+    return found
 
 
 def unconnected(network: Network) -> list[str]:
@@ -82,11 +121,48 @@ def _short(network: Network, place: str, about: About) -> Doubt | None:
     if few is None or not isinstance(node, Unit):
         return None
     used, least = few
+    if network.ends_line(place):
+        size = max(network.arcs(place)[0].sizes)
+        unsaid = "what feeds it from behind" if about == "feeds" else "whether it goes on behind that"
+        return Doubt(
+            place, node.tag, f"a {network.what(place)} at the end of a line of DN {size}: {unsaid} can't be told"
+        )
     noun, others = port_word(node.unit_type), "the other" if least - used == 1 else "the others"
     has = "has a line" if used == 1 else "have a line"
     unsaid = f"what feeds {others}" if about == "feeds" else f"where {others} {_lead(least - used)}"
     only = "none" if used == 0 else f"only {_NUMBERS[used]}"
     return Doubt(place, node.tag, f"{only} of its {_NUMBERS[least]} {noun}s {has}: {unsaid} can't be told")
+
+
+def _bare(network: Network, place: str, about: About) -> Iterator[Doubt]:
+    for nozzle in bare_nozzles(network, place):
+        unsaid = "what feeds it there" if about == "feeds" else "where it leads"
+        yield Doubt(place, network.name(place), f"its nozzle {nozzle[0]} has no line: {unsaid} can't be told")
+
+
+def _name(part: Part) -> str | None:
+    return None if part.label is None else part.label.name
+
+
+def _nozzle_at(network: Network, part: str) -> tuple[dict[str, Part], bool]:
+    """The pieces of a nozzle, its flange included, and whether something closes it."""
+    pieces = {part: network.graph.part(part)}
+    closed, waiting = False, [part]
+    while waiting:
+        for other in network.graph.neighbors(pieces[waiting.pop()]):
+            name = _name(other)
+            closed = closed or name in _CLOSURES
+            if name in _NOZZLE and other.id not in pieces:
+                pieces[other.id] = other
+                waiting.append(other.id)
+    return pieces, closed
+
+
+def _starts_at(port: Port, piece: Part) -> bool:
+    """Whether a line that joins at a port begins at a piece of a nozzle."""
+    point, (low, high) = np.asarray(port.point), np.asarray(piece.aabb)
+    reach = max(_NEAR, 0.25 * (port.diameter or 0.0))
+    return bool(np.linalg.norm(np.clip(point, low, high) - point) <= reach)
 
 
 def _lead(count: int) -> str:

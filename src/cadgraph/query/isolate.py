@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import heapq
-from collections.abc import Collection, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from cadgraph._io.text import tag_key
@@ -13,7 +12,8 @@ from cadgraph.model.records import Terminal
 from cadgraph.query.doubt import Doubt, few_ports, open_sides
 from cadgraph.query.duty import blocked_relief, duty_of, likely_kinds, suspect_of
 from cadgraph.query.lines import find_lines
-from cadgraph.query.network import Arc, Network
+from cadgraph.query.network import Network
+from cadgraph.query.section import Reached, Rules, Section, close_off, is_source
 
 __all__ = ["Closing", "Isolation", "Opening", "Passed", "find_isolation"]
 
@@ -80,6 +80,7 @@ class Opening:
         port: nozzle of the unit that it is reached by.
         distance: along the pipes from the unit [m].
         why: what is wrong with it, in words.
+        other_ports: the unit's other nozzles from which a way leads there that no valve closes.
     """
 
     place: str
@@ -88,6 +89,7 @@ class Opening:
     port: str | None
     distance: float
     why: str
+    other_ports: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -130,13 +132,6 @@ class Isolation:
         return None if self.doubts else True
 
 
-@dataclass(frozen=True)
-class _Reached:
-    distance: float
-    arc: Arc  # that it was reached by
-    port: str | None
-
-
 def find_isolation(
     graph: SceneGraph | Network,
     target: str,
@@ -169,7 +164,7 @@ def find_isolation(
     start = network.find(target)
     if not network.arcs(start):
         raise Unconnected(network.name(start), "what isolates it")
-    section = _close_off(network, start, _Rules(network, check_valves, assume_shutoff), fewest)
+    section = close_off(network, start, Rules(network, check_valves, assume_shutoff), fewest)
     line_of = {arc.index: line.tag for line in find_lines(network) for arc in line.arcs}
     apart = {*section.needed, start}
     inside = [p for p in section.left if network.unit_type(p) not in (None, "tank") and p not in apart]
@@ -197,202 +192,22 @@ def find_isolation(
     )
 
 
-@dataclass(frozen=True)
-class _Rules:
-    """Which valves of a network are relied on."""
-
-    network: Network
-    check_valves: bool
-    assume_shutoff: bool
-
-    def passes(self, place: str) -> bool:
-        """Whether something comes through a node that is no barrier: past what sits on the side of a run it does."""
-        network = self.network
-        return network.stands_aside(place) or not (_is_relief(network, place) or network.unit_type(place) == "tank")
-
-    def isolates(self, place: str) -> bool:
-        """Whether a valve counts as shutting off."""
-        duty = duty_of(self.network, place)
-        return duty in ("shuts off", "likely") or (self.assume_shutoff and duty == "unknown")
-
-    def holds_back(self, arc: Arc) -> bool:
-        """Whether an arc away from the unit enters a check valve that counts, against which nothing comes back."""
-        if not self.check_valves or duty_of(self.network, arc.end) != "check" or self.network.stands_aside(arc.end):
-            return False
-        # The flow through a valve is one: known on its far side, it is known on this one.
-        beyond = any(onward.flow == "along" for onward in self.network.arcs(arc.end) if onward.index != arc.index)
-        return arc.flow == "along" or (arc.flow == "unknown" and beyond)
-
-
-@dataclass(frozen=True)
-class _Section:
-    """What is cut off.
-
-    Args:
-        start: the unit to be isolated.
-        reached: all that something can come from to it, the walls included.
-        nearest: the same, the nearest first.
-        walls: where the section ends.
-        region: the nodes within, the start included.
-        needed: the walls that have to be closed, and the valves on the sides of runs within that shut off.
-        left: the nodes within once these are closed, the nearest first, without the start: with what lies behind walls
-            that need not be closed, which are open.
-    """
-
-    start: str
-    reached: Mapping[str, _Reached]
-    nearest: tuple[str, ...]
-    walls: frozenset[str]
-    region: frozenset[str]
-    needed: tuple[str, ...]
-    left: tuple[str, ...]
-
-    def inside(self) -> list[str]:
-        """The nodes within but for the start, the nearest first."""
-        return [place for place in self.nearest if place in self.region]
-
-    def way(self, place: str) -> list[str]:
-        """The nodes between the start and a node, from the start on."""
-        found: list[str] = []
-        step = self.reached[place].arc.start
-        while step != self.start:
-            found.append(step)
-            step = self.reached[step].arc.start
-        return found[::-1]
-
-
-def _close_off(network: Network, start: str, rules: _Rules, fewest: bool) -> _Section:
-    """Finds the walls around a unit: the nearest barriers, or the fewest."""
-    closing = {place for place in network.places if place != start and rules.isolates(place)}
-    barriers = {place for place in closing if not network.stands_aside(place)}
-    if fewest:
-        barriers = _smallest(network, start, barriers, rules)
-    reached, walls = _flood(network, start, barriers, rules)
-    region = {start, *(place for place in reached if place not in walls)}
-    needed = [
-        place for place in walls if not _is_relief(network, place) and _is_fed(network, start, place, region, walls)
-    ]
-    # What a valve on the side of a run leads to was not found; nobody knows whether it feeds.
-    needed += [place for place in reached if place in region and place in closing and network.stands_aside(place)]
-    # What need not be closed stays open, and what lies behind it hangs together with the unit.
-    open_to, shut = _flood(network, start, barriers.intersection(needed), rules)
-    left = [place for place in _by_distance(network, open_to) if place not in shut]
-    return _Section(
-        start, reached, _by_distance(network, reached), frozenset(walls), frozenset(region), tuple(needed), tuple(left)
-    )
-
-
-def _by_distance(network: Network, reached: Mapping[str, _Reached]) -> tuple[str, ...]:
-    return tuple(sorted(reached, key=lambda place: (reached[place].distance, tag_key(network.name(place)))))
-
-
-def _own(network: Network, section: _Section) -> list[str]:
+def _own(network: Network, section: Section) -> list[str]:
     """The nodes of a section, the start first, without tanks beside it, whose other lines don't belong to it."""
     return [section.start, *(place for place in section.left if network.unit_type(place) != "tank")]
 
 
-def _lines(network: Network, section: _Section, line_of: Mapping[int, str]) -> tuple[str, ...]:
+def _lines(network: Network, section: Section, line_of: Mapping[int, str]) -> tuple[str, ...]:
     """The tags of the lines of a section; the pipes at a tank beside it don't belong to it."""
     tags = {line_of[index] for index in _connections(network, section) if index in line_of}
     return tuple(sorted(tags, key=tag_key))
 
 
-def _connections(network: Network, section: _Section) -> tuple[int, ...]:
+def _connections(network: Network, section: Section) -> tuple[int, ...]:
     return tuple(sorted({arc.index for place in _own(network, section) for arc in network.arcs(place)}))
 
 
-def _is_relief(network: Network, place: str) -> bool:
-    return duty_of(network, place) == "relief"
-
-
-def _flood(network: Network, start: str, barriers: set[str], rules: _Rules) -> tuple[dict[str, _Reached], set[str]]:
-    """All that something can come from to the unit, with the distance, and the walls where that ends."""
-    reached: dict[str, _Reached] = {}
-    walls: set[str] = set()
-    settled: set[str] = set()
-    queue: list[tuple[float, int, str, str | None, Arc | None]] = [(0.0, 0, start, None, None)]
-    count = 0
-    while queue:
-        distance, _, place, port, arc = heapq.heappop(queue)
-        if place in settled:
-            continue
-        settled.add(place)
-        if arc is not None:
-            reached[place] = _Reached(distance, arc, port)
-            if place in barriers or rules.holds_back(arc) or not rules.passes(place):
-                if network.unit_type(place) != "tank":
-                    walls.add(place)
-                continue
-        for onward in network.arcs(place):
-            count += 1
-            entry = onward.start_port if arc is None else port
-            heapq.heappush(queue, (distance + (onward.length or 0.0), count, onward.end, entry, onward))
-    return reached, walls
-
-
-def _is_fed(network: Network, start: str, wall: str, region: Collection[str], walls: Collection[str]) -> bool:
-    """Whether anything behind a valve could flow to it: an end that isn't blind, a tank, a pump, other equipment.
-
-    What lies behind a valve of which only one side is known, nobody knows.
-    """
-    if few_ports(network, wall) is not None:
-        return True
-    seen, stack = {wall}, [arc.end for arc in network.arcs(wall)]
-    while stack:
-        place = stack.pop()
-        if place in seen or place == start:
-            continue
-        if network.unit_type(place) == "tank":
-            # Also one that another way leads to, which is told as open: somebody may close that way by other means.
-            return True
-        if place in region or place in walls:
-            continue
-        seen.add(place)
-        node = network.places[place]
-        if isinstance(node, Terminal):
-            if node.kind != "blind":
-                return True
-            continue
-        if network.unit_type(place) not in (None, "valve", "gauge") or few_ports(network, place) is not None:
-            return True
-        stack += [arc.end for arc in network.arcs(place)]
-    return False
-
-
-def _smallest(network: Network, start: str, barriers: set[str], rules: _Rules) -> set[str]:
-    """The smallest set of barriers between the unit and all sources that barriers can keep off."""
-    import networkx
-
-    reached, _ = _flood(network, start, barriers, rules)
-    sources = [(p, "out") for p in network.places if p != start and _is_source(network, p) and p not in reached]
-    # A valve of which only one side is known keeps off what may lie behind it.
-    sources += [(p, "in") for p in network.places if p in barriers and few_ports(network, p) is not None]
-    flow: networkx.DiGraph[tuple[str, str]] = networkx.DiGraph()
-    origin, sink = ("", "all sources"), (start, "in")
-    flow.add_nodes_from((origin, sink))
-    for place in network.places:
-        if place in barriers:
-            flow.add_edge((place, "in"), (place, "out"), capacity=1)
-        elif rules.passes(place):
-            flow.add_edge((place, "in"), (place, "out"))
-        for arc in network.arcs(place):
-            # What flows to the unit walks the arc's way; a check valve lets it out only the way it opens.
-            if not rules.holds_back(arc.back):
-                flow.add_edge((arc.start, "out"), (arc.end, "in"))
-    flow.add_edges_from((origin, source) for source in sources)
-    # Seen from the unit, so that of equally small sets the nearest one is found.
-    # The set is small where there is one, which this algorithm is quick at.
-    augment = networkx.algorithms.flow.shortest_augmenting_path
-    _, (_, near) = networkx.minimum_cut(flow, origin, sink, flow_func=augment)
-    return {place for place in barriers if (place, "out") in near and (place, "in") not in near}
-
-
-def _is_source(network: Network, place: str) -> bool:
-    node = network.places[place]
-    return network.unit_type(place) == "tank" or (isinstance(node, Terminal) and node.kind != "blind")
-
-
-def _closing(network: Network, place: str, reached: _Reached, line_of: Mapping[int, str]) -> Closing:
+def _closing(network: Network, place: str, reached: Reached, line_of: Mapping[int, str]) -> Closing:
     duty = duty_of(network, place)
     return Closing(
         place=place,
@@ -406,11 +221,11 @@ def _closing(network: Network, place: str, reached: _Reached, line_of: Mapping[i
     )
 
 
-def _passed(network: Network, section: _Section, place: str, line_of: Mapping[int, str]) -> Passed | None:
+def _passed(network: Network, section: Section, place: str, line_of: Mapping[int, str]) -> Passed | None:
     """A valve of the section that might have ended it, if that is one."""
     reached = section.reached[place]
     duty = duty_of(network, place)
-    if duty not in ("unknown", "other") or network.is_tap(reached.arc):
+    if place in section.needed or duty not in ("unknown", "other") or network.is_tap(reached.arc):
         return None
     return Passed(
         place=place,
@@ -433,7 +248,7 @@ def _unknown(network: Network, place: str) -> str:
     return f"kind not known, may be {likely}" if likely else "kind not known"
 
 
-def _assumed(network: Network, section: _Section) -> list[Doubt]:
+def _assumed(network: Network, section: Section) -> list[Doubt]:
     """The valves to close of which nobody knows whether they shut off."""
     return [
         Doubt(place, network.name(place), f"{_unknown(network, place)}; taken for a shut-off valve as asked")
@@ -442,7 +257,7 @@ def _assumed(network: Network, section: _Section) -> list[Doubt]:
     ]
 
 
-def _opening(network: Network, section: _Section, place: str) -> Opening | None:
+def _opening(network: Network, section: Section, place: str) -> Opening | None:
     node = network.places[place]
     valves = (step for step in section.way(place) if network.is_valve(step) and not network.stands_aside(step))
     passed = ", ".join(network.name(step) for step in valves)
@@ -457,10 +272,11 @@ def _opening(network: Network, section: _Section, place: str) -> Opening | None:
     else:
         return None
     reached = section.reached[place]
-    return Opening(place, network.name(place), network.what(place), reached.port, reached.distance, why)
+    others = tuple(port for port in section.ports_to.get(place, ()) if port != reached.port)
+    return Opening(place, network.name(place), network.what(place), reached.port, reached.distance, why, others)
 
 
-def _remarks(network: Network, section: _Section, check_valves: bool) -> tuple[str, ...]:
+def _remarks(network: Network, section: Section, check_valves: bool) -> tuple[str, ...]:
     places = sorted((section.region | section.walls) - {section.start}, key=lambda place: tag_key(network.name(place)))
     told = [
         f"{network.name(place)} {remark}"
@@ -472,7 +288,7 @@ def _remarks(network: Network, section: _Section, check_valves: bool) -> tuple[s
         for place in sorted(section.needed, key=lambda place: tag_key(network.name(place)))
         for relief in blocked_relief(network, place)
     ]
-    if not section.needed and not any(_is_source(network, place) for place in section.left):
+    if not section.needed and not any(is_source(network, place) for place in section.left):
         told.append(
             "nothing was found that fills or empties this section: what it holds, and under what pressure, nobody knows"
         )
@@ -482,7 +298,7 @@ def _remarks(network: Network, section: _Section, check_valves: bool) -> tuple[s
     return tuple(told)
 
 
-def _remark(network: Network, section: _Section, place: str, check_valves: bool) -> str | None:
+def _remark(network: Network, section: Section, place: str, check_valves: bool) -> str | None:
     """What should be known about a node of the section or at its end, if anything."""
     duty, arc = duty_of(network, place), section.reached[place].arc
     if duty == "relief" and (place in section.walls or network.stands_aside(place)):

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from cadgraph.query.compare import Comparison, Missing
-from cadgraph.query.doubt import Doubt, few_ports, likely_joints, unconnected
+from cadgraph.query.doubt import Doubt, bare_nozzles, few_ports, likely_joints, unconnected
 from cadgraph.query.isolate import PASSED_OVER, Isolation
 from cadgraph.query.lines import Line
 from cadgraph.query.network import Network
@@ -81,12 +81,15 @@ def gap_lines(network: Network) -> list[str]:
         for place in network.places
         if network.arcs(place) and (few := few_ports(network, place)) is not None
     ]
+    bare = [network.name(place) for place in network.places if network.arcs(place) and bare_nozzles(network, place)]
     n_joints = len(likely_joints(network))
     told = []
     if without:
         told.append(f"no line was found at {_some(without)}")
     if short:
         told.append(f"fewer lines than its kind needs has {_some(short)}")
+    if bare:
+        told.append(f"a nozzle without a line has {_some(bare)}")
     if n_joints:
         are, they = ("joint was", "it") if n_joints == 1 else ("joints were", "they")
         told.append(f"{n_joints} {are} not made although {they} may be there")
@@ -204,7 +207,9 @@ def isolation_lines(found: Isolation, *, hints: bool = True) -> list[str]:
     told = []
     if found.openings:
         told.append(f"{found.name} can't be isolated wholly:")
-        open_rows = [(f"{o.name} ({o.what})", _by(o.port), _metres(o.distance), o.why) for o in found.openings]
+        open_rows = [
+            (f"{o.name} ({o.what})", _by(o.port, *o.other_ports), _metres(o.distance), o.why) for o in found.openings
+        ]
         told += [f"  {row}" for row in aligned(open_rows, right=(2,))]
     if found.doubts:
         heading = "these valves may not isolate" if found.valves else "nobody can tell what isolates"
@@ -277,7 +282,14 @@ def isolation_values(found: Isolation) -> dict[str, Any]:
             for v in found.passed
         ],
         "openings": [
-            {"to": o.name, "what": o.what, "port": o.port, "distance_m": round(o.distance, 6), "why": o.why}
+            {
+                "to": o.name,
+                "what": o.what,
+                "port": o.port,
+                "other_ports": list(o.other_ports),
+                "distance_m": round(o.distance, 6),
+                "why": o.why,
+            }
             for o in found.openings
         ],
         "doubts": [_doubt_values(doubt) for doubt in found.doubts],
@@ -412,8 +424,8 @@ def _step_row(step: Step) -> tuple[str, ...]:
     )
 
 
-def _by(port: str | None) -> str:
-    return f"by {port}" if port else ""
+def _by(port: str | None, *others: str) -> str:
+    return f"by {', '.join((port, *others))}" if port else ""
 
 
 def _metres(value: float, at_least: bool = False) -> str:
