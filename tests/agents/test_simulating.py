@@ -58,15 +58,15 @@ def test_where_both_disagree_it_is_said(tmp_path):
     )
 
 
-def test_a_pump_against_shut_valves_whose_relief_valve_opens_is_a_disagreement(tmp_path):
+def test_a_pump_against_shut_valves_whose_relief_valve_opens_is_no_disagreement(tmp_path):
     nodes = [terminal(1), unit("P-001", ports=("N1", "N2")), junction(1), unit("V-001", "relief valve", ports=("N1",))]
     ways = chain("X1 P-001.N1", length=1) + chain("P-001.N2 J1 V-002 X2", length=1) + chain("J1 V-001.N1", length=1)
     graph = network([*nodes, unit("V-002", "gate valve"), terminal(2)], ways)
     write_scenario(default_scenario(graph), tmp_path)
     answer = what_if(graph, tmp_path, "V-002")
-    assert [one["tag"] for one in answer.values["dead_headed"]] == ["P-001"]
-    (told,) = answer.values["simulated"]["disagreements"]
-    assert told.startswith("the graph says that P-001 pumps against shut valves, but")
+    (pump,) = answer.values["dead_headed"]
+    assert (pump["tag"], pump["why"]) == ("P-001", "until V-001 relieves it, if it is set to")
+    assert answer.values["simulated"]["disagreements"] == []
 
 
 def test_a_scenario_that_can_not_be_used_leaves_the_answer_of_the_graph(folder):
@@ -84,3 +84,5 @@ def test_what_nobody_can_shut_is_not_simulated(folder):
 def test_other_sources_than_those_of_the_scenario_are_not_simulated(folder):
     answer = what_if(pumping(), folder, "V-002", sources="T-001")
     assert "not simulated\tthe scenario says what feeds" in answer.text
+    (folder / SCENARIO).unlink()
+    assert "not simulated" not in what_if(pumping(), folder, "V-002", sources="T-001").text

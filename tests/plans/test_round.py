@@ -77,10 +77,20 @@ def test_what_is_low_and_yet_out_of_reach_is_said_to_have_no_place_to_stand():
     assert doubt_lines(known, planned)[0].endswith("out of reach: no free place to stand near it was found")
 
 
+@pytest.mark.parametrize(("viewpoint", "aided"), [(None, True), ((5.0, 4.0, 1.7), False)])
+def test_a_gauge_up_high_takes_a_ladder_only_where_it_is_not_read_from_the_floor(viewpoint, aided):
+    high = standing("G-005", (5.0, 5.0, 2.8), reach="out of reach", height=2.8)
+    high = high.model_copy(update={"access": high.access.model_copy(update={"viewpoint": viewpoint})})
+    known, planned = made("read G-005", gallery([high]))
+    assert ("set up G-005" in doings(planned)) is aided
+
+
 def test_opening_a_valve_does_not_repeat_what_closing_it_did():
-    _, planned = made("close V-002; open V-002", pumping())
+    known, planned = made("close V-002; open V-002", pumping())
     close, opened = (step.change for step in planned.steps if step.goal)
     assert "P-001 would run dry" in close.notes
+    assert (close.harm, opened.harm) == (("P-001 would run dry",), ())
+    assert "! close V-002: P-001 would run dry" in doubt_lines(known, planned)
     assert "P-001 would run dry" not in opened.notes
     assert "P-001" in opened.fed_again
 

@@ -15,6 +15,14 @@ def series(direction="forward"):
     return network(nodes, chain("T-001 V-001 V-002 X1", length=1.5, direction=direction))
 
 
+def test_a_valve_on_the_side_of_a_run_is_told_to_be_so():
+    nodes = [unit("T-001"), unit("V-001", "relief valve"), unit("V-002", "gate valve"), terminal(1)]
+    graph = network(nodes, [*chain("T-001 V-001.N1"), *chain("V-001.N1 V-002 X1")])
+    found = find_way(graph, "T-001", "terminal-001")
+    assert [step.name for step in found.steps if step.aside] == ["V-001"]
+    assert any("relief valve, on the side" in line for line in way_lines(found, "T-001", "terminal-001"))
+
+
 def test_downstream_goes_with_the_flow_in_order_of_distance():
     assert told(trace(series(), "V-001")) == [("V-001", 0), ("V-002", 1.5), ("terminal-001", 3.0)]
 

@@ -36,6 +36,7 @@ def test_closing_a_suction_valve_cuts_off_the_pump_which_only_passes_on():
     found = what_if(pumping(), "V-002")
     assert tags(found.cut_off) == {"G-001", "P-001", "G-003", "V-004", "V-005"}
     assert "P-001 would run dry" in found.remarks
+    assert tags(found.run_dry) == {"P-001"}
     assert {"V-009", "G-005"} <= tags(found.still_fed)
 
 
@@ -108,6 +109,15 @@ def test_a_tank_that_nothing_flows_to_any_more_is_told():
     assert found.cut_off == ()
     assert tags(found.not_refilled) == {"T-002"}
     assert tags(found.dead_headed) == {"P-001"}
+
+
+@pytest.mark.parametrize("relief", ["P-001.N2 J1 V-002 X2", "P-001.N2 J1 V-002.N1"])
+def test_a_relief_valve_that_a_pump_against_shut_valves_opens_is_named(relief):
+    nodes = [unit("T-001"), unit("T-002"), unit("V-001", "gate valve"), unit("V-002", "relief valve"), unit("P-001")]
+    edges = [*chain("T-001 P-001.N1"), *chain("J1 V-001 T-002"), *chain(relief)]
+    found = what_if(network([*nodes, junction(1), terminal(2)], edges), "V-001")
+    (pump,) = found.dead_headed
+    assert (pump.name, pump.why) == ("P-001", "until V-002 relieves it, if it is set to")
 
 
 @pytest.mark.parametrize(("kind", "why"), [("gate valve", ""), (None, "only if V-001 really shuts")])

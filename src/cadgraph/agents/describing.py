@@ -82,6 +82,8 @@ def _describe_node(plant: Plant, node: Unit | Junction | Terminal, page: int) ->
     if isinstance(node, Unit) and node.kind is None:
         likely = ", ".join(f"{kind} {sure:.0%}" for kind, sure in guesses)
         rows.append(("kind", f"unknown{f'; perhaps {likely}' if likely else ''}"))
+    if plant.network.is_valve(node.id) and plant.network.stands_aside(node.id):
+        rows.append(("stands", "on the side of its line: what flows there passes it by"))
     here, values = _where(plant, node)
     lines = [line.tag for line in plant.lines if node.id in (line.start, line.end, *line.through)]
     rows += [*here, ("system", told.system or "none"), ("lines", ", ".join(lines))]

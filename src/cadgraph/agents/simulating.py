@@ -19,16 +19,19 @@ __all__ = ["simulated_rows", "simulated_values", "simulation_of"]
 _TEXT = 400  # characters of a text that is more than a name
 
 
-def simulation_of(plant: Plant, close: Sequence[str], found: WhatIf) -> Simulated | str | None:
+def simulation_of(plant: Plant, close: Sequence[str], found: WhatIf, asked: bool = True) -> Simulated | str | None:
     """What the simulation says of closing valves; why it says nothing; None where there is no scenario.
 
     Args:
         plant: that holds them.
         close: ids of the valves.
         found: what the graph alone says.
+        asked: False where sources were given, for a scenario has its own.
     """
     if plant.folder is None or not (plant.folder / SCENARIO).exists():
         return None
+    if not asked:
+        return "the scenario says what feeds, not the sources"
     from cadgraph.hydraulics.closing import simulate_closing
 
     try:

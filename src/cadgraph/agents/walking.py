@@ -266,9 +266,7 @@ def what_if(
         raise
     except ValueError as error:
         raise AskError(cell(error, _TEXT)) from None
-    simulated = (
-        simulation_of(plant, places, found) if feeding is None else "the scenario says what feeds, not the sources"
-    )
+    simulated = simulation_of(plant, places, found, asked=feeding is None)
     rows = [*_consequence_rows(found), *simulated_rows(simulated)]
     return Answer(page_of(_verdict(found), rows, [], page), _what_if_values(found) | simulated_values(simulated))
 
@@ -299,11 +297,11 @@ def _verdict(found: WhatIf) -> list[str]:
 def _consequence_rows(found: WhatIf) -> Iterator[str]:
     """What is open first, then what is known."""
     yield from (f"mind\t{cell(remark, _TEXT)}" for remark in found.remarks)
+    yield from _grouped("pumps against shut valves", found.dead_headed)
     yield from _doubt_rows(found.doubts)
     yield from _grouped("unknown", found.unknown)
     yield from _grouped("cut off", found.cut_off)
     yield from _grouped("nothing refills", found.not_refilled)
-    yield from _grouped("pumps against shut valves", found.dead_headed)
     yield from _grouped("another way leads to", found.still_fed)
     yield from (f"supposed\t{cell(text, _TEXT)}" for text in found.assumptions)
     yield from _listed("sources", "", found.sources)
@@ -322,6 +320,7 @@ def _what_if_values(found: WhatIf) -> dict[str, Any]:
         "still_fed": told(found.still_fed),
         "not_refilled": told(found.not_refilled),
         "dead_headed": told(found.dead_headed),
+        "run_dry": told(found.run_dry),
         "doubts": [{"at": doubt.name, "text": doubt.text} for doubt in found.doubts],
         "assumptions": list(found.assumptions),
         "remarks": list(found.remarks),
@@ -389,7 +388,7 @@ def _metres(value: float, whole: bool = True) -> str:
 
 
 def _step_row(step: Step) -> str:
-    marks = ["instrument"] * step.tap + ["end"] * (step.ends and not step.tap)
+    marks = ["on the side"] * step.aside + ["instrument"] * step.tap + ["end"] * (step.ends and not step.tap)
     marks += ["direction unknown"] * (step.flow == "unknown" and not step.tap and step.after is not None)
     what = ", ".join((step.what, *marks))
     return row(_metres(step.distance, not step.at_least), step.name, what, step.after, step.line)

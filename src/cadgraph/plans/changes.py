@@ -21,12 +21,14 @@ class Change:
         fed_again: tags of what is fed again.
         unknown: tags of what may lose or get it, or not.
         notes: what should be known about it, a sentence each.
+        harm: those of them that tell what may break a pump.
     """
 
     cut_off: tuple[str, ...] = ()
     fed_again: tuple[str, ...] = ()
     unknown: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
+    harm: tuple[str, ...] = ()
 
 
 def shut_before(goals: Iterable[Goal]) -> frozenset[str]:
@@ -86,10 +88,12 @@ def _asked(network: Network, shut: Iterable[str]) -> WhatIf | None:
 def _closing(goal: Goal, before: WhatIf | None, after: WhatIf | None) -> Change:
     lost = _names(after.cut_off if after else ()) - _names(before.cut_off if before else ())
     open_now = _names(after.unknown if after else ()) - _names(before.unknown if before else ())
+    notes = _notes(goal, before, after, lost)
     return Change(
         cut_off=_in_order(after.cut_off if after else (), lost),
         unknown=_in_order(after.unknown if after else (), open_now),
-        notes=_notes(goal, before, after, lost),
+        notes=notes,
+        harm=tuple(text for text in _harm(after) if text in notes) if after else (),
     )
 
 
@@ -131,14 +135,19 @@ def _notes(goal: Goal, without: WhatIf | None, shut: WhatIf | None, told: set[st
 def _sentences(answer: WhatIf) -> list[str]:
     return [
         *answer.remarks,
-        *(f"{one.name} would pump against closed valves{_condition(one)}" for one in answer.dead_headed),
-        *(f"{one.name} is not refilled{_condition(one)}" for one in answer.not_refilled),
+        *_dead_headed(answer),
+        *(f"{one.name} is not refilled{one.condition}" for one in answer.not_refilled),
         *(f"{doubt.name}: {doubt.text}" for doubt in answer.doubts),
     ]
 
 
-def _condition(one: Consequence) -> str:
-    return f", {one.why}" if one.why else ""
+def _harm(answer: WhatIf) -> list[str]:
+    """What may break a pump."""
+    return [*(f"{one.name} would run dry{one.condition}" for one in answer.run_dry), *_dead_headed(answer)]
+
+
+def _dead_headed(answer: WhatIf) -> list[str]:
+    return [f"{one.name} would pump against closed valves{one.condition}" for one in answer.dead_headed]
 
 
 def _names(listed: Iterable[Consequence]) -> set[str]:

@@ -98,7 +98,9 @@ class Terrain:
         level = access.place if access.place in self.places else self.ground
         unsure = [] if access.place in self.places else ["the level that it is reached from is not known"]
         aid = None
-        if access.reach == "out of reach":
+        # What is only read needs no hand at it.
+        read = unit.unit_type == "gauge" and access.viewpoint is not None
+        if access.reach == "out of reach" and not read:
             aid = f"{_operator(unit)} is {access.height:.1f} m above the {self.name(level)}, out of reach"
             if access.height <= _REACH:
                 aid += ": no free place to stand near it was found"

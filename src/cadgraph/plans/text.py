@@ -31,7 +31,7 @@ def head_lines(known: Survey, planned: Round, faults: Sequence[Fault]) -> list[s
 
 
 def doubt_lines(known: Survey, planned: Round) -> list[str]:
-    """What isn't known, and which goals take more than a walk, as what matters most."""
+    """What isn't known, which goals take more than a walk and which may break a pump, as what matters most."""
     aids: dict[str, str] = {}
     unsure: dict[str, list[str]] = {}
     for step in planned.steps:
@@ -41,6 +41,11 @@ def doubt_lines(known: Survey, planned: Round) -> list[str]:
         for text in step.unsure:
             unsure.setdefault(text, []).append(name)
     told = [f"! {name} takes {need}" for name, need in aids.items()]
+    told += [
+        f"! {step.do} {_name(known, step.target)}: {shown(text, 500)}"
+        for step in planned.steps
+        for text in step.change.harm
+    ]
     return told + [f"? {', '.join(dict.fromkeys(names))}: {text}" for text, names in unsure.items()]
 
 
@@ -97,6 +102,7 @@ def _values(known: Survey, step: Step) -> dict[str, Any]:
         "fed_again": list(map(shown, change.fed_again)),
         "unknown": list(map(shown, change.unknown)),
         "notes": [shown(note, 500) for note in change.notes],
+        "harm": [shown(text, 500) for text in change.harm],
     }
 
 

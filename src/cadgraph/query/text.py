@@ -160,7 +160,8 @@ def way_lines(found: Trace, start: str, end: str) -> list[str]:
     rows = [("distance", "", "", "line", "")]
     for step in found.steps:
         flow = _FLOW_WORDS[step.flow] if step.after and not step.tap else ""
-        rows.append((_metres(step.distance, step.at_least), step.name, step.what, step.line or "", flow))
+        what = f"{step.what}, on the side" if step.aside else step.what
+        rows.append((_metres(step.distance, step.at_least), step.name, what, step.line or "", flow))
     last = found.steps[-1]
     return [
         f"from {found.steps[0].name} to {last.name}{manner}: {_metres(last.distance, last.at_least)}",
@@ -184,6 +185,7 @@ def trace_values(found: Trace) -> dict[str, Any]:
                 "flow": step.flow,
                 "reason": step.reason,
                 "tap": step.tap,
+                "aside": step.aside,
                 "ends": step.ends,
             }
             for step in found.steps
@@ -412,7 +414,7 @@ def _way(at: str, to: Sequence[str], plant: str, plan: str) -> str:
 
 
 def _step_row(step: Step) -> tuple[str, ...]:
-    marks = ["instrument"] * step.tap + ["end"] * (step.ends and not step.tap)
+    marks = ["on the side"] * step.aside + ["instrument"] * step.tap + ["end"] * (step.ends and not step.tap)
     marks += ["direction unknown"] * (step.flow == "unknown" and not step.tap)
     return (
         _metres(step.distance, step.at_least),

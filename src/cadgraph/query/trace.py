@@ -33,6 +33,7 @@ class Step:
         reason: why the flow goes so, where that is known.
         tap: whether it is an instrument (or its root valve) beside the way.
         ends: whether the way ends here.
+        aside: whether it is a valve on the side of the run, which what flows passes by.
     """
 
     place: str
@@ -46,6 +47,7 @@ class Step:
     reason: str | None
     tap: bool
     ends: bool
+    aside: bool = False
 
 
 @dataclass(frozen=True)
@@ -236,6 +238,7 @@ def _step(
         reason=last.edge.reason if last else None,
         tap=last is not None and network.is_tap(last),
         ends=ends or isinstance(network.places[place], Terminal),
+        aside=network.is_valve(place) and network.stands_aside(place),
     )
 
 

@@ -50,6 +50,11 @@ class Consequence:
     what: str
     why: str = ""
 
+    @property
+    def condition(self) -> str:
+        """``why`` as the end of a sentence."""
+        return f", {self.why}" if self.why else ""
+
 
 @dataclass(frozen=True)
 class WhatIf:
@@ -64,7 +69,9 @@ class WhatIf:
         unknown: units and ends behind the valves that may be cut off or not, and tanks that may be refilled or not.
         still_fed: units and ends behind the valves to which a way of known direction leads from a source all the same.
         not_refilled: tanks that count as sources and that nothing else flows to any more; ``why`` likewise.
-        dead_headed: pumps that have no way left to a tank or an end; ``why`` likewise.
+        dead_headed: pumps that have no way left to a tank or an end but through a relief valve; ``why`` likewise, and
+            it names the relief valves that they may open.
+        run_dry: pumps among what is cut off; ``why`` likewise.
         doubts: where a way that was not found may feed what is cut off.
         assumptions: what the answer supposes, a sentence each.
         remarks: on the closed valves, and on pumps that are cut off.
@@ -77,6 +84,7 @@ class WhatIf:
     still_fed: tuple[Consequence, ...]
     not_refilled: tuple[Consequence, ...]
     dead_headed: tuple[Consequence, ...]
+    run_dry: tuple[Consequence, ...]
     doubts: tuple[Doubt, ...]
     assumptions: tuple[str, ...]
     remarks: tuple[str, ...]
@@ -174,6 +182,8 @@ class _Closing:
         cut -= turned | driven
         doubted = [self.network.name(place) for place in self.unsure if place in self.barriers]
         depends = f"only if {' and '.join(doubted)} really shuts"
+        cut_off = tuple(self._told(p, depends if p in after_for_sure else "") for p in self._by_tag(cut))
+        run_dry = tuple(one for one in cut_off if self.network.unit_type(one.place) == "pump")
         open_ones = (behind - cut) - surely_fed - set(self.sure_sources) - turned - driven
         # Through a valve on the way to a blind end nothing is filled.
         filled = self._behind(lambda arc: self._follows(arc) and not self.network.is_dead(arc))
@@ -183,7 +193,7 @@ class _Closing:
         return WhatIf(
             closed=tuple(map(self.network.name, self.closed)),
             sources=tuple(map(self.network.name, self._by_tag(self.sources))),
-            cut_off=tuple(self._told(p, depends if p in after_for_sure else "") for p in self._by_tag(cut)),
+            cut_off=cut_off,
             unknown=(
                 *(self._told(p, self._why_open(p in before, p in loosely_fed)) for p in self._by_tag(open_ones)),
                 *(self._told(p, _TURNS) for p in self._by_tag(turned)),
@@ -195,12 +205,13 @@ class _Closing:
                 self._told(p, "" if p in surely_not_refilled else depends) for p in self._by_tag(not_refilled)
             ),
             dead_headed=tuple(
-                self._told(p, "" if p in surely_dead_headed else depends)
+                self._told(p, self._why_dead_headed(p, "" if p in surely_dead_headed else depends))
                 for p in self._by_tag(self._dead_headed(cut, self.barriers))
             ),
+            run_dry=run_dry,
             doubts=self._doubts(cut),
             assumptions=self._assumptions(),
-            remarks=self._remarks(before, cut),
+            remarks=(*self._remarks(before), *(f"{one.name} would run dry{one.condition}" for one in run_dry)),
         )
 
     # What feeds
@@ -361,8 +372,23 @@ class _Closing:
         return [p for p in pumps if self._delivers(p, ()) and not self._delivers(p, barriers)]
 
     def _delivers(self, pump: str, blocked: Collection[str]) -> bool:
-        """Whether a pump has a way to a tank or an end."""
-        return any(map(self._lets_out, self._reach((pump,), blocked)))
+        """Whether a pump has a way to a tank or an end; one through a relief valve is none that it is run by."""
+        return any(map(self._lets_out, self._reach((pump,), {*blocked, *self._reliefs_in_line})))
+
+    @cached_property
+    def _reliefs(self) -> tuple[str, ...]:
+        return tuple(p for p in self.network.places if duty_of(self.network, p) == "relief")
+
+    @cached_property
+    def _reliefs_in_line(self) -> tuple[str, ...]:
+        """The relief valves that something would have to flow through; one on the side of a run is passed by."""
+        return tuple(p for p in self._reliefs if not self.network.stands_aside(p))
+
+    def _why_dead_headed(self, pump: str, why: str) -> str:
+        near = self._reach((pump,), self.barriers)
+        reliefs = [self.network.name(place) for place in self._by_tag(self._reliefs) if place in near]
+        opens = f"until {' or '.join(reliefs)} relieves it, if it is set to" if reliefs else ""
+        return ", ".join(filter(None, (why, opens)))
 
     def _doubts(self, cut: Collection[str]) -> tuple[Doubt, ...]:
         pieces = [place for place in self.network.places if place in cut]
@@ -390,7 +416,7 @@ class _Closing:
         told.append("this is about flow: what is cut off may still be under pressure; isolate says what isolates it")
         return tuple(told)
 
-    def _remarks(self, before: Collection[str], cut: Collection[str]) -> tuple[str, ...]:
+    def _remarks(self, before: Collection[str]) -> tuple[str, ...]:
         name = self.network.name
         told = [f"{name(place)} {why}" for place, why in self.unsure.items()]
         told += [
@@ -412,5 +438,4 @@ class _Closing:
         told += [
             f"no source was found to feed {name} in the first place: what it cuts off isn't known" for name in unfed
         ]
-        dry = [place for place in self._by_tag(cut) if self.network.unit_type(place) == "pump"]
-        return (*told, *(f"{self.network.name(place)} would run dry" for place in dry))
+        return tuple(told)
