@@ -3,6 +3,7 @@ import os
 
 import pytest
 
+import graphs
 from cadgraph.agents.answer import BUDGET, tokens
 from cadgraph.agents.drawing.drawer import read_scene
 from cadgraph.agents.plant import Plant
@@ -204,6 +205,14 @@ def test_overview_counts_kinds_and_says_what_is_not_known(plant):
     assert "flow unknown in 4 of 16 lines" in text
 
 
+def test_overview_counts_likely_labels_and_units_short_of_lines():
+    labels = [graphs.label().model_copy(update={"likely": likely}) for likely in (True, False)]
+    parts = [graphs.part(k, label=label) for k, label in enumerate(labels)]
+    text = ask(Plant(network([*parts, unit("V-001"), terminal(1)], chain("V-001.N1 X1"))), "overview").text
+    assert "trust: 0 parts unlabelled, 1 only likely" in text
+    assert "trust: fewer lines found than needed at V-001" in text
+
+
 def test_overview_says_where_corrections_may_be_missing(plant, tmp_path):
     plant.graph.save(tmp_path / "graph.json")
     reopened = Plant.open(tmp_path)
@@ -380,7 +389,9 @@ def test_levels_and_reach_are_told():
     plant = with_places()
     assert "levels 2: ground, platform +2.10 m (east); units reached from floor 1" in ask(plant, "overview").text
     assert "reach\tplatform: 0.90 m above platform +2.10 m (east)" in ask(plant, "describe", id="V-002").text
-    assert ask(plant, "describe", id="place-002").values["units"] == ["V-002", "V-003"]
+    for called in ("place-002", "platform +2.10 m (east)"):
+        assert ask(plant, "describe", id=called).values["units"] == ["V-002", "V-003"]
+    assert "its middle: 1.00 m above ground" in ask(plant, "approach", target="V-001").text
     assert "height\tfrom 0.00 m to 2.10 m" in ask(plant, "describe", id="place-003").text
     with pytest.raises(AskError, match=r"no level 'roof' here; there is ground, platform"):
         ask(plant, "find", level="roof")

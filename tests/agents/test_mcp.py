@@ -224,6 +224,7 @@ def test_the_tool_for_corrections_is_there_only_where_it_is_allowed(several):
         ("describe", {"id": "V-O01"}, "V-001"),
         ("describe", {}, "id"),
         ("describe", {"id": "V-001", "idd": 1}, "did you mean id"),
+        ("trace", {"start": "%%%%"}, "the tool lines prints all"),
         ("descripe", {"id": "V-001"}, "did you mean describe"),
         ("trace", {"start": "V-001", "direction": "sideways"}, "upstream"),
         ("picture", {"target": "V-001"}, "isn't where it was"),

@@ -1,5 +1,6 @@
 """What is supposed of a plant, why, and how it is read back from a file."""
 
+import numpy as np
 import pytest
 
 import graphs
@@ -9,7 +10,7 @@ from cadgraph.hydraulics.process import Process
 from cadgraph.hydraulics.scenario import SPANS
 from cadgraph.hydraulics.scenario_file import read_scenario, scenario_text, write_scenario
 from cadgraph.hydraulics.text import assumptions
-from cadgraph.model.records import Mechanism
+from cadgraph.model.records import Mechanism, OrientedBox
 from networks import chain, junction, network, pumping, terminal, unit
 from waterworks import line
 
@@ -256,3 +257,22 @@ def test_a_system_of_valves_in_a_row_is_simulated_as_supposed():
         "equal percentage",
         "linear",
     ]
+
+
+@pytest.mark.parametrize("roll", [0.0, 30.0])
+@pytest.mark.parametrize("turn", [0.0, 45.0])
+def test_a_lying_tank_has_one_surface_however_it_is_turned(turn, roll):
+    way = np.radians(turn)
+    along = np.array([np.cos(way), np.sin(way), 0.0])
+    side = np.array([-np.sin(way), np.cos(way), 0.0])
+    tilt = np.radians(roll)
+    across = [np.cos(tilt) * side + np.sin(tilt) * np.eye(3)[2], np.cos(tilt) * np.eye(3)[2] - np.sin(tilt) * side]
+    half = 1.5 * np.abs(along) + 0.5 * np.abs(side) + [0.0, 0.0, 0.5]
+    shell = graphs.part(
+        1,
+        aabb=(tuple(-half), tuple(half)),
+        obb=OrientedBox(center=(0.0, 0.0, 0.0), axes=(tuple(along), *map(tuple, across)), extents=(3.0, 1.0, 1.0)),
+    )
+    tank = unit("T-001").model_copy(update={"parts": ("part-1",)})
+    graph = network([shell, tank, terminal(1)], chain("T-001 X1"))
+    assert default_scenario(graph).tanks["T-001"].area == pytest.approx(np.pi / 4 * 3.0, abs=1e-3)

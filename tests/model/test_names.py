@@ -5,6 +5,7 @@ from cadgraph.errors import UnknownNode
 from cadgraph.model.records import Junction, Part, Terminal, Unit
 from cadgraph.query.isolate import find_isolation
 from cadgraph.query.trace import trace
+from gallery import gallery
 from networks import pumping
 
 
@@ -17,6 +18,11 @@ def graph():
 def test_a_tag_may_be_spelt_loosely(graph, spelt):
     assert graph.unit(spelt).tag == "V-004"
     assert graph.find(spelt).id == "unit-V-004"
+
+
+@pytest.mark.parametrize("called", ["platform +3.00 m (south east)", "place-002", "platform 3.00 m south-east"])
+def test_a_level_is_known_by_its_name(called):
+    assert gallery().find(called).id == "place-002"
 
 
 def test_what_is_not_there_is_a_key_error_and_a_value_error_with_a_plain_text(graph):

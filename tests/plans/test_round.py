@@ -81,7 +81,7 @@ def test_what_is_low_and_yet_out_of_reach_is_said_to_have_no_place_to_stand():
 def test_a_gauge_up_high_takes_a_ladder_only_where_it_is_not_read_from_the_floor(viewpoint, aided):
     high = standing("G-005", (5.0, 5.0, 2.8), reach="out of reach", height=2.8)
     high = high.model_copy(update={"access": high.access.model_copy(update={"viewpoint": viewpoint})})
-    known, planned = made("read G-005", gallery([high]))
+    _, planned = made("read G-005", gallery([high]))
     assert ("set up G-005" in doings(planned)) is aided
 
 

@@ -123,7 +123,7 @@ def did_you_mean(value: str, known: Iterable[str]) -> str:
     """What may have been meant by a word, else what there is."""
     words = {_plain(word): cell(word) for word in known}
     near = difflib.get_close_matches(_plain(value), words, _NEAR)
-    near = near or [word for word in words if _plain(value) and _plain(value) in word][:_NEAR]
+    near = near or [word for word in words if _plain(value) and f" {_plain(value)}" in f" {word}"][:_NEAR]
     if near:
         return f"did you mean {', '.join(words[word] for word in near)}?"
     listed = list(words.values())[:_MOST_LISTED]

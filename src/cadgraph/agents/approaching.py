@@ -79,7 +79,7 @@ def _stood(plant: Plant, unit: Unit, access: Access, place: Place, reach: float)
 
 def _told(values: dict[str, Any], unit: Unit, access: Access) -> list[str]:
     name = " ".join([values["unit"], cell(unit.kind or unit.unit_type)])
-    what = {"gauge": "its face", "valve": "its operator"}.get(unit.unit_type, "where one works at it")
+    what = _worked_at(unit, access)
     if values["reach"] == "out of reach":
         told = [
             f"{name}: OUT OF REACH of a hand at {values['reach_m']:.1f} m: no level with a known way up brings one "
@@ -96,6 +96,15 @@ def _told(values: dict[str, Any], unit: Unit, access: Access) -> list[str]:
     if unit.unit_type == "gauge":
         told += _face(access)
     return told
+
+
+def _worked_at(unit: Unit, access: Access) -> str:
+    """What the height of a unit is that of: where no face or operator was found, of its middle."""
+    if unit.unit_type == "gauge":
+        return "its middle" if access.facing is None else "its face"
+    if unit.unit_type == "valve":
+        return "its operator" if unit.affordances else "its middle"
+    return "where one works at it"
 
 
 def _face(access: Access) -> list[str]:

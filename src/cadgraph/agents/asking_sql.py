@@ -13,15 +13,17 @@ from cadgraph.agents.sql.schema import PLACED, TABLES, schema_line
 __all__ = ["DESCRIPTION", "query"]
 
 _MOST = 400  # characters of a cell
+_TEXTS = re.compile(r"'(?:[^']|'')*'|--[^\n]*|/\*.*?\*/", re.DOTALL)
+_QUOTED = re.compile(r'(\bas\s+)?"((?:[^"]|"")+)"', re.IGNORECASE)
 _UNKNOWN = re.compile(r"no such (table|column|function): (?:\w+\.)?(\w+)")
 
-DESCRIPTION = """Counts, lists, joins by one read-only SQLite SELECT; null: unknown.
-Not for ways along pipes: use trace, route, isolate, what_if.
+DESCRIPTION = """Counts, lists, joins by one SQLite SELECT; null: unknown.
+Not for ways along pipes: trace, route, isolate, what_if.
 unit(tag,type,kind,likely_kind,system,region,level,x,y,z,low,high,reach_height,reach,pipes)
 point(name,what,system,x,y,z) units, junctions, ends
 pipe(a,b,flow,length,size,line) both ways; flow along|against|unknown
-line(tag,first,last,through,length,sizes,flow,system)
-part(id,label_group,label_name,confidence,unit,cluster,mesh,x,y,z,dx,dy,dz)
+line(tag,first,last,through,length,whole,sizes,flow,system)
+part(id,label_group,label_name,confidence,likely,unit,cluster,mesh,x,y,z,dx,dy,dz)
 contact(a,b,gap) both ways
 cluster(id,kind,parts) system(id,units,ends,length) level(name,kind,height,area)
 type: valve|gauge|pump|tank|equipment. Metres, DN; z up, y north."""
@@ -53,7 +55,7 @@ def query(plant: Plant, sql: Annotated[str, "one SELECT"], page: int = 1) -> Ans
         raise AskError(f"{error}{_meant(str(error))}; the tables are {schema_line()}") from None
     head = ["\t".join(found.columns)]
     rows = ["\t".join(_shown(value) for value in row) for row in found.rows]
-    notes = _notes(plant, found)
+    notes = [*_taken_for_texts(sql), *_notes(plant, found)]
     values = {
         "columns": list(found.columns),
         "rows": [list(row) for row in found.rows],
@@ -79,6 +81,18 @@ def _meant(error: str) -> str:
         return ""
     columns = dict.fromkeys(column for table in TABLES.values() for column in table.columns)
     return f"; {did_you_mean(unknown[2], TABLES if unknown[1] == 'table' else columns)}"
+
+
+def _taken_for_texts(sql: str) -> list[str]:
+    """What stands in double quotes and names nothing, which SQLite takes for a text instead of refusing it."""
+    quoted = [(bool(found[1]), found[2]) for found in _QUOTED.finditer(_TEXTS.sub("''", sql))]
+    known = {*TABLES, *(column for table in TABLES.values() for column in table.columns)}
+    known |= {name for given, name in quoted if given}
+    unknown = dict.fromkeys(name for _, name in quoted if name.casefold() not in known and name not in known)
+    return [
+        f'"{cell(name, 60)}" names no column here: SQLite took it for a text, which belongs in single quotes'
+        for name in unknown
+    ]
 
 
 def _notes(plant: Plant, found: Found) -> list[str]:

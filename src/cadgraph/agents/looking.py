@@ -14,7 +14,7 @@ from cadgraph.agents.plant import Plant
 from cadgraph.model.names import loose_tag
 from cadgraph.model.records import Junction, Part, Place, Point, System, Terminal, Unit
 from cadgraph.model.regions import region_of
-from cadgraph.query.doubt import likely_joints
+from cadgraph.query.doubt import bare_nozzles, few_ports, likely_joints
 
 __all__ = ["NO_PLACES", "REGIONS", "counted", "find", "kind_of", "overview", "said_place", "some", "where"]
 
@@ -45,6 +45,8 @@ def overview(plant: Plant) -> Answer:
     ]
     trust = {
         "parts_unlabelled": summary.n_parts - summary.n_labelled,
+        "labels_only_likely": sum(part.label is not None and part.label.likely for part in graph.parts()),
+        "units_short_of_lines": [network.name(u.id) for u in graph.units() if _lacks_lines(plant, u.id)],
         "units_without_line": list(map(network.name, _without_line(plant))),
         "valves_of_unknown_kind": [network.name(u.id) for u in graph.units() if u.unit_type == "valve" and not u.kind],
         "lines": len(plant.lines),
@@ -98,10 +100,20 @@ def _without_line(plant: Plant) -> Iterator[str]:
     return (unit.id for unit in plant.graph.units() if not plant.network.arcs(unit.id))
 
 
+def _lacks_lines(plant: Plant, unit: str) -> bool:
+    """Whether a unit has a line, but fewer than it should."""
+    network = plant.network
+    return bool(network.arcs(unit)) and (few_ports(network, unit) is not None or bool(bare_nozzles(network, unit)))
+
+
 def _trust_rows(trust: Mapping[str, Any]) -> list[str]:
     told = ["trust: corrections were made that this graph may lack: build it again"] * trust["behind_corrections"]
-    told.append(f"trust: {trust['parts_unlabelled']} parts unlabelled")
-    for key, words in (("units_without_line", "no line found at"), ("valves_of_unknown_kind", "valve kind unknown:")):
+    told.append(f"trust: {trust['parts_unlabelled']} parts unlabelled, {trust['labels_only_likely']} only likely")
+    for key, words in (
+        ("units_without_line", "no line found at"),
+        ("units_short_of_lines", "fewer lines found than needed at"),
+        ("valves_of_unknown_kind", "valve kind unknown:"),
+    ):
         told += [f"trust: {words} {some(trust[key])}"] if trust[key] else []
     if trust["lines"]:
         told.append(f"trust: flow unknown in {trust['lines_of_unknown_flow']} of {trust['lines']} lines")

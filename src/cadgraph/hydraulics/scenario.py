@@ -38,6 +38,7 @@ _VELOCITY = 2.0  # in the discharge of a pump, and in a sink at 3 bar [m/s]
 _PUMP_HEAD = 30.0  # m
 _SOURCE = 1.0  # bar(g)
 _FILLED = 0.6
+_UPRIGHT = 0.98  # least height of a unit vector that counts as vertical
 
 # Loss coefficients when open: the first word that fits the kind counts.
 _LOSSES: tuple[tuple[tuple[str, ...], float, str], ...] = (
@@ -394,12 +395,12 @@ def _tank(network: Network, unit: Unit) -> TankSetting:
     shell = max(parts, key=lambda part: _size(part.aabb), default=None)
     low, high = shell.aabb if shell is not None else unit.aabb
     height = max(high[2] - low[2], 0.1)
-    across = (high[0] - low[0]) * (high[1] - low[1])
+    across = _in_plan(shell) if shell is not None else (high[0] - low[0]) * (high[1] - low[1])
     of = "its largest part" if shell is not None else "its box"
     why = {
         "level": "assumed: filled to 60 %",
         "height": f"the height of {of}",
-        "area": f"assumed: an upright cylinder as wide as {of}",
+        "area": f"assumed: a cylinder, upright or lying, of the size of {of}",
         "bottom": f"the lowest point of {of}",
         "pressure": "assumed: open to the air",
     }
@@ -407,6 +408,23 @@ def _tank(network: Network, unit: Unit) -> TankSetting:
     return TankSetting(
         level=round(_FILLED * height, 3), height=round(height, 3), area=round(area, 3), bottom=round(low[2], 3), why=why
     )
+
+
+def _in_plan(shell: Part) -> float:
+    """Length by width of a shell in plan [m2], whichever way it is turned about the vertical.
+
+    The mean surface of what fills it is pi / 4 of that, for a round tank that stands and for one that lies.
+    """
+    axes, extents = shell.obb.axes, shell.obb.extents
+    up = max(range(3), key=lambda k: abs(axes[k][2]))
+    if abs(axes[up][2]) > _UPRIGHT:
+        return math.prod(extents) / max(extents[up], 1e-9)
+    low, high = shell.aabb
+    along = max(range(3), key=lambda k: extents[k])
+    # A box around something round may be rolled about its length by any angle; its height is its width, then.
+    if abs(axes[along][2]) < 1 - _UPRIGHT:
+        return extents[along] * (high[2] - low[2])
+    return (high[0] - low[0]) * (high[1] - low[1])
 
 
 def _size(box: tuple[tuple[float, float, float], tuple[float, float, float]]) -> float:

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from functools import cached_property
 
 from cadgraph.errors import UnknownNode
-from cadgraph.model.records import Junction, Node, Part, Terminal, Unit
+from cadgraph.model.records import Junction, Node, Part, Place, Terminal, Unit
 
 __all__ = ["Names", "loose_tag"]
 
@@ -29,6 +29,7 @@ class Names:
     def __init__(self, nodes: Mapping[str, Node]) -> None:
         self._nodes = nodes
         self._by_tag: dict[str, Node] = {node.tag: node for node in nodes.values() if isinstance(node, Unit)}
+        self._by_name: dict[str, Node] = {node.name: node for node in nodes.values() if isinstance(node, Place)}
         self._part_of_mesh = {mesh: node for node in nodes.values() if isinstance(node, Part) for mesh in node.meshes}
 
     def part_with(self, mesh: str) -> Part | None:
@@ -38,8 +39,9 @@ class Names:
     def find(self, which: str, layers: tuple[type[Node], ...]) -> Node:
         """The node of one of these layers that is called so.
 
-        An id, a tag or the source path of a mesh in full goes first. Else a tag or id may be spelt loosely (``v4`` for
-        ``V-004``) where only one is meant. A part stands for what it is a part of, where that is of these layers.
+        An id, a tag, the source path of a mesh or the name of a level in full goes first. Else a tag or id may be spelt
+        loosely (``v4`` for ``V-004``) where only one is meant. A part stands for what it is a part of, where that is of
+        these layers.
 
         Args:
             which: what it is called.
@@ -48,7 +50,7 @@ class Names:
         Raises:
             UnknownNode: there is none; the message names the nearest ones.
         """
-        exact = (self._nodes.get(which), self._by_tag.get(which), self._part_of_mesh.get(which))
+        exact = (names.get(which) for names in (self._nodes, self._by_tag, self._part_of_mesh, self._by_name))
         called = [node for node in exact if node is not None]
         for node in self._meant(which, called, layers):
             if isinstance(node, layers):
@@ -79,7 +81,7 @@ class Names:
     @cached_property
     def _by_loose_name(self) -> Mapping[str, list[Node]]:
         named: dict[str, list[Node]] = {}
-        for name, node in (*self._nodes.items(), *self._by_tag.items()):
+        for name, node in (*self._nodes.items(), *self._by_tag.items(), *self._by_name.items()):
             named.setdefault(loose_tag(name), []).append(node)
         return named
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import copy
+import re
 import time
 from collections.abc import Callable, Mapping
 from functools import partial
@@ -36,6 +37,10 @@ _SEVERAL = " There are several plants: each tool takes the name of one that the 
 _EVERY = 5.0  # s between two messages of progress; clients give up where none comes for long
 _MOST_ERROR = 1500  # characters of an error
 _MOST_DRAWING = 2  # threads for pictures
+
+# Remedies in errors name commands; an agent has tools. What has no tool is for the people behind it.
+_COMMAND = re.compile(r"'cadgraph (\w+)[^']*'")
+_TOOL_OF = {"explain": "describe", "lines": "lines", "export": "find", "relabel": "correct"}
 
 Context = ServerRequestContext[Any, Any]
 
@@ -131,11 +136,21 @@ def _tried(tools: Mapping[str, Tool], plants: Plants, name: str, arguments: Mapp
             raise AskError(f"no tool {cell(name)!r} here; {did_you_mean(name, tools)}")
         return _answered(tools[name], plants, dict(arguments))
     except (CadGraphError, ValueError) as error:
-        return _result(cell(error, _MOST_ERROR), is_error=True)
+        return _result(cell(_in_tools(str(error), tools), _MOST_ERROR), is_error=True)
     except OSError as error:
         return _result(f"the server can't read or write that now: {cell(error.strerror)}", is_error=True)
     except MemoryError:
         return _result("there is not enough memory for this", is_error=True)
+
+
+def _in_tools(text: str, tools: Mapping[str, Tool]) -> str:
+    """An error with tools in place of the commands that it names."""
+
+    def named(command: re.Match[str]) -> str:
+        tool = _TOOL_OF.get(command[1], "")
+        return f"the tool {tool}" if tool in tools else command[0]
+
+    return _COMMAND.sub(named, text)
 
 
 def _answered(tool: Tool, plants: Plants, arguments: dict[str, Any]) -> types.CallToolResult:
