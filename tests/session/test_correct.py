@@ -5,7 +5,7 @@ import pytest
 import knobs
 import shapes
 from cadgraph.config import Config
-from cadgraph.errors import LabelError
+from cadgraph.errors import LabelError, LoadError
 from cadgraph.model.catalog import read_catalog, write_catalog
 from cadgraph.model.corrections import read_corrections
 from cadgraph.model.given_labels import GivenLabel, split_label
@@ -96,7 +96,7 @@ def test_given_labels_stay(scene, tmp_path):
 
 def test_when_the_source_is_gone_nothing_is_left_behind(folder, scene):
     scene.unlink()
-    with pytest.raises(LabelError, match="--scene"):
+    with pytest.raises(LoadError, match="--scene"):
         amend(folder, "/a", "handwheel", report=False)
     assert not (folder / "corrections.json").exists()
 
@@ -169,7 +169,7 @@ def test_a_graph_gives_its_corrected_parts_with_their_labels(folder, scene, tmp_
     assert label_of(graph, "/b") == ("handwheel", "catalog")
     assert label_of(graph, "/knob") is None
     scene.write_text(scene.read_text() + "\n")
-    with pytest.raises(LabelError, match="changed since"):
+    with pytest.raises(LoadError, match="changed since"):
         take_graph(EMPTY, folder)
 
 

@@ -10,7 +10,7 @@ from pxr import Usd, UsdGeom
 import knobs
 import shapes
 from cadgraph.config import Config
-from cadgraph.errors import LabelError
+from cadgraph.errors import LoadError
 from cadgraph.export.usd_labels import CLASS
 from cadgraph.model.catalog import rows_of
 from cadgraph.model.graph import SceneGraph
@@ -135,7 +135,7 @@ def test_a_source_that_changed_is_refused(built):
     source = Path(SceneGraph.load(folder).source.path)
     source.write_bytes(source.read_bytes() + b"\n")
     mesh = next(iter(boxes(folder)))
-    with pytest.raises(LabelError, match="changed since the graph was built"):
+    with pytest.raises(LoadError, match="changed since the graph was built"):
         amend(folder, mesh, LABEL, report=False)
 
 

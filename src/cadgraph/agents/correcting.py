@@ -16,6 +16,7 @@ from cadgraph.agents.answer import Answer, AskError, cell, page_of
 from cadgraph.agents.plant import Plant
 from cadgraph.errors import CadGraphError, OutputError
 from cadgraph.labelers.base import Labeler
+from cadgraph.load.source_file import find_source
 from cadgraph.model.given_labels import split_label
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.labels import CorrectedEvidence
@@ -26,7 +27,6 @@ from cadgraph.serve.saving import Saver
 from cadgraph.session.reopen import FormerLabeler, config_of, reopen
 from cadgraph.session.run import write_graph
 from cadgraph.session.session import Change, Session
-from cadgraph.session.source import find_source
 from cadgraph.session.told import tell_renamed
 
 __all__ = ["Desk"]
@@ -155,7 +155,7 @@ class Desk:
     def _open(self, graph: SceneGraph) -> None:
         try:
             config = config_of(self._folder)
-            self._source = find_source(graph.source, self._folder, None)
+            self._source = find_source(graph.source, self._folder)
             # What a model was paid for is not asked again.
             former: Labeler | None = FormerLabeler(graph) if config.lvlm.ask != "never" else None
             session = reopen(graph, self._folder, self._source, config, former, self._progress, keep=True)

@@ -51,19 +51,19 @@ def show_film(film: Film, process: Process, source: Path | None, folder: Path) -
         film: what was played.
         process: of the plant.
         source: where the file is that the graph was made from; None: where it was.
-        folder: that gets the files.
+        folder: that holds the graph, and gets the files.
 
     Returns:
         What was played and written, for JSON and for :func:`say_played`.
     """
     from cadgraph._io.run_folder import coming_into
     from cadgraph.config import restore_config
-    from cadgraph.export.source import find_source
     from cadgraph.load import load
+    from cadgraph.load.source_file import find_source
     from cadgraph.simulate.play.showing import show
 
     graph = process.network.graph
-    scene = load(find_source(graph, source), restore_config(graph.config).load)
+    scene = load(find_source(graph.source, folder, source), restore_config(graph.config).load)
     with coming_into(folder):
         shown = show(film, graph, scene, process.scenario, folder)
     return {

@@ -97,6 +97,7 @@ def export(
         bake=bake,
         open_instances=open_instances,
         scenario=scenario,
+        folder=folder,
     )
     for path in written.files:
         out.print(f"wrote {escape(str(path))}")

@@ -37,18 +37,19 @@ def tasks(
     with its reasons. The same seed gives the same file.
     """
     from cadgraph.config import restore_config
-    from cadgraph.export.source import find_source
     from cadgraph.hydraulics.process import Process
     from cadgraph.hydraulics.settings import SCENARIO
     from cadgraph.load import load
+    from cadgraph.load.source_file import find_source
     from cadgraph.model.graph import SceneGraph
     from cadgraph.simulate.tasks.choosing import make_tasks
 
     plant = SceneGraph.load(graph)
-    beside = (graph if graph.is_dir() else graph.parent) / SCENARIO
+    folder = graph if graph.is_dir() else graph.parent
+    beside = folder / SCENARIO
     file = scenario or (beside if beside.exists() else None)
     process = Process(plant, file)
-    scene = load(find_source(plant, source), restore_config(plant.config).load)
+    scene = load(find_source(plant.source, folder, source), restore_config(plant.config).load)
     made = make_tasks(plant, scene, process.scenario, seed=seed, n=n)
     made.write(output)
     counts = Counter(task.kind for task in made.tasks)

@@ -14,8 +14,9 @@ from cadgraph.export.att import write_att
 from cadgraph.export.graphml import write_graphml
 from cadgraph.export.labels import write_labels
 from cadgraph.export.nodelink import write_nodelink
-from cadgraph.export.source import find_source, refuse_source, scene_of
+from cadgraph.export.source import refuse_source, scene_of
 from cadgraph.export.tables import write_tables
+from cadgraph.load.source_file import find_source
 from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.graph import SceneGraph
 
@@ -287,6 +288,7 @@ def write_export(
     bake: bool = False,
     open_instances: bool = False,
     scenario: str | Path | None = None,
+    folder: Path | None = None,
 ) -> Written:
     """Writes a graph in another format; several files come into their folder together.
 
@@ -301,6 +303,7 @@ def write_export(
         open_instances: of a baked stage: whether to open all native instances, for renderers that skip them.
         scenario: of ``epanet``: the file that says what is supposed; None: ``scenario.yaml`` beside the file that is
             written where there is one.
+        folder: that the graph was loaded from, beside which its source is looked for, too.
 
     Returns:
         The files written, and what is to be said of them.
@@ -331,10 +334,10 @@ def write_export(
             raise ValueError(f"{form.name} is written from the graph alone; leave --source out")
         return _written(form, graph, target, None)
     if form.source == "needed":
-        origin = find_source(graph, source)
+        origin = find_source(graph.source, folder, source)
         _check_kind(form, origin, "a copy of")
         return _written(form, graph, target, origin)
-    there, missing = _source_if_there(form, graph, source)
+    there, missing = _source_if_there(form, graph, folder, source)
     written = _written(form, graph, target, there)
     if there is not None:
         return written
@@ -351,16 +354,18 @@ def _written(form: Format, graph: SceneGraph, path: Path, source: Path | None) -
         return form.write(graph, place, source)
 
 
-def _source_if_there(form: Format, graph: SceneGraph, given: str | Path | None) -> tuple[Path | None, str]:
+def _source_if_there(
+    form: Format, graph: SceneGraph, folder: Path | None, given: str | Path | None
+) -> tuple[Path | None, str]:
     """The source of a graph where it is there and of the right kind, else why not; a given one has to be."""
     if given is not None:
-        origin = find_source(graph, given)
+        origin = find_source(graph.source, folder, given)
         _check_kind(form, origin, "written for")
         return origin, ""
     if Path(graph.source.path).suffix.lower() not in form.copied_as:
         return None, f"the graph was made from no {' or '.join(form.copied_as)} file"
     try:
-        return find_source(graph), ""
+        return find_source(graph.source, folder), ""
     except LoadError as error:
         return None, str(error)
 

@@ -19,7 +19,8 @@ _GRAVE = frozenset({
     "broken-chunk", "broken-element", "broken-mesh", "broken-node", "broken-object", "broken-primitive", "cut-short",
     "damaged-entity", "trailing-bytes", "unbalanced-tree", "unreadable",
     "damaged-source", "invalid-units", "invalid-up-axis", "missing-layer", "missing-payload", "missing-reference",
-    "mixed-units", "mixed-up-axis", "outside-asset", "unit-doubt", "unusual-size", "vocabulary-unknown-to-model",
+    "mixed-units", "mixed-up-axis", "outside-asset", "unit-doubt", "missing-up-axis",
+    "unusual-size", "vocabulary-unknown-to-model",
 })  # fmt: skip
 """Codes of findings that are said aloud: something is missing, or with the wrong scale or vocabulary hardly any label
 can be right.

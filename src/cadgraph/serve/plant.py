@@ -17,6 +17,7 @@ from cadgraph.draw.web.content import shown_meshes
 from cadgraph.draw.web.packing import PackedScene, pack_scene
 from cadgraph.errors import CadGraphError, FormatError, LabelError, LoadError, MissingExtra, OutputError
 from cadgraph.load import load
+from cadgraph.load.source_file import find_source
 from cadgraph.model.corrections import CORRECTIONS
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.scene import Scene
@@ -30,7 +31,6 @@ from cadgraph.session.review.question import Question
 from cadgraph.session.review.queue import review_queue
 from cadgraph.session.run import Clock, begin, write_graph, write_report_anew, write_results
 from cadgraph.session.session import Change, Session
-from cadgraph.session.source import find_source
 from cadgraph.stages.preprocess import prepare_scene
 
 __all__ = ["Plant"]
@@ -186,7 +186,7 @@ class Plant:
         graph = SceneGraph.load(folder)
         self.feed.publish(title=file_name(graph.source.path))
         try:
-            source, config = find_source(graph.source, folder, self._order.scene), config_of(folder)
+            source, config = find_source(graph.source, folder, self._order.scene, "--scene"), config_of(folder)
             self._progress("read", 0)
             scene = load(source, config.load)
         except (LabelError, LoadError, FormatError, MissingExtra) as error:

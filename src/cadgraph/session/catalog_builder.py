@@ -13,13 +13,13 @@ from cadgraph.errors import LabelError, LoadError
 from cadgraph.geometry.mesh.properties import measure
 from cadgraph.geometry.shape.repeats import find_shapes
 from cadgraph.load import load
+from cadgraph.load.source_file import find_source
 from cadgraph.model.catalog import Catalog, Entry
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Part
 from cadgraph.model.scene import Scene
 from cadgraph.pipeline import analyse
 from cadgraph.session.reopen import config_of
-from cadgraph.session.source import find_source
 from cadgraph.stages.preprocess import prepare_scene
 
 __all__ = ["EMPTY", "Intake", "take_file", "take_graph"]
@@ -99,7 +99,8 @@ def take_graph(
         scene: the source, where it isn't where the graph says.
 
     Raises:
-        LabelError: no part has such a label, or the source isn't there or has changed.
+        LabelError: no part has such a label.
+        LoadError: the source isn't there or has changed.
         FormatError: the folder holds no graph.
     """
     graph = SceneGraph.load(folder)
@@ -111,7 +112,7 @@ def take_graph(
     kept = [part for part in chosen if part.shape not in torn]
     if not kept:
         return Intake(catalog, len(chosen), (), 0, (), len(torn))
-    source = find_source(graph.source, Path(folder), scene)
+    source = find_source(graph.source, Path(folder), scene, "--scene")
     shapes = _shapes_of(kept, source, config_of(folder))
     taken = _taken(catalog, shapes, [_entry(part, source, label) for part in kept])
     return replace(taken, n_parts=len(chosen), torn=taken.torn + len(torn))

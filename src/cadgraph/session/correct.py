@@ -10,6 +10,7 @@ from typing import Any, Literal
 from cadgraph._io.progress import Progress, quiet
 from cadgraph._io.results import new_results
 from cadgraph._io.run_folder import results_folder
+from cadgraph.load.source_file import find_source
 from cadgraph.model.corrections import read_history
 from cadgraph.model.edits import Correction
 from cadgraph.model.given_labels import split_label
@@ -20,7 +21,6 @@ from cadgraph.session.reopen import FormerLabeler, config_of, reopen
 from cadgraph.session.requests import EditRequest
 from cadgraph.session.run import Clock, Outcome, stage_graph, write_rest
 from cadgraph.session.session import Change, Session, changed_parts
-from cadgraph.session.source import find_source
 from cadgraph.session.told import tell_flow, tell_lines, tell_renamed, tell_units
 
 __all__ = ["Amendment", "amend", "apply_edits", "step_back_or_forth"]
@@ -83,7 +83,8 @@ def amend(
 
     Raises:
         ValueError: the graph has no such part (``UnknownNode``), or there is no correction of it to take back.
-        LabelError: the label is not in the graph's vocabulary; the source isn't there or has changed.
+        LabelError: the label is not in the graph's vocabulary.
+        LoadError: the source isn't there or has changed.
         FormatError: the folder holds no graph.
     """
     before, target = _opened(folder)
@@ -127,7 +128,8 @@ def apply_edits(
 
     Raises:
         ValueError: the graph has no such part, unit or place (``UnknownNode``), or a correction can't be carried out.
-        LabelError: a label is not in the graph's vocabulary; the source isn't there or has changed.
+        LabelError: a label is not in the graph's vocabulary.
+        LoadError: the source isn't there or has changed.
         FormatError: the folder holds no graph.
     """
     before, target = _opened(folder)
@@ -157,7 +159,7 @@ def step_back_or_forth(
 
     Raises:
         ValueError: there is nothing to undo, or to do again.
-        LabelError: the source isn't there or has changed.
+        LoadError: the source isn't there or has changed.
         FormatError: the folder holds no graph.
     """
     before, target = _opened(folder)
@@ -183,7 +185,7 @@ def _changed(
     clock = Clock(progress)
     with results_folder(folder) as target:
         config = config_of(folder)
-        source = find_source(before.source, target, scene)
+        source = find_source(before.source, target, scene, "--scene")
         former = FormerLabeler(before) if config.lvlm.ask != "never" else None
         # A correction that the graph does not show must not wait for a later build: both come together.
         with new_results(target) as new:

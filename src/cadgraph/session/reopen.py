@@ -10,6 +10,7 @@ from cadgraph.config import Config, restore_config
 from cadgraph.errors import FormatError
 from cadgraph.labelers.base import AskingLabeler, Labeler, Labeling
 from cadgraph.load import load
+from cadgraph.load.source_file import find_source
 from cadgraph.model.corrections import CorrectionsFile
 from cadgraph.model.given_labels import GivenLabel
 from cadgraph.model.graph import SceneGraph
@@ -20,7 +21,6 @@ from cadgraph.model.scene import Scene
 from cadgraph.model.vocabulary import Vocabulary
 from cadgraph.session.run import Clock, Outcome, check_layers, check_target, write_results
 from cadgraph.session.session import Session
-from cadgraph.session.source import find_source
 
 __all__ = ["FormerLabeler", "config_of", "relabel", "reopen", "vocabulary_of"]
 
@@ -48,13 +48,13 @@ def relabel(
         progress: called with the name of a stage and the share of it that is done.
 
     Raises:
-        LabelError: the source isn't there, or has changed.
+        LoadError: the source isn't there, or has changed.
         FormatError: the folder holds no graph.
     """
     clock = Clock(progress)
     with results_folder(folder) as target:
         graph = SceneGraph.load(target)
-        source = find_source(graph.source, target, scene)
+        source = find_source(graph.source, target, scene, "--scene")
         if isinstance(labeler, AskingLabeler):
             labeler.former = FormerLabeler(graph)
         session = reopen(graph, target, source, config, labeler, clock)
@@ -81,7 +81,7 @@ def reopen(
     Args:
         graph: finished.
         target: the folder that it lies in; with its corrections.
-        source: the scene's file, see :func:`~cadgraph.session.source.find_source`.
+        source: the scene's file, see :func:`~cadgraph.load.source_file.find_source`.
         config: all settings.
         labeler: says what the parts are; the one that is set if None.
         progress: called with the name of a stage and the share of it that is done.

@@ -22,11 +22,11 @@ from cadgraph.draw.render.camera import Camera, frame
 from cadgraph.draw.render.color import from_hex
 from cadgraph.draw.render.picture import Paint, Renderer
 from cadgraph.draw.render.views import three_quarter_view
-from cadgraph.errors import LabelError
+from cadgraph.errors import LoadError
 from cadgraph.load import load
+from cadgraph.load.source_file import find_source
 from cadgraph.model.records import Point, SourceRecord
 from cadgraph.model.scene import Ints, Scene
-from cadgraph.session.source import find_source
 from cadgraph.stages.preprocess import prepare_scene
 
 __all__ = ["Drawer", "read_scene"]
@@ -61,8 +61,8 @@ def read_scene(source: SourceRecord, config: Mapping[str, Any], folder: Path | N
     if folder is None or not source.path:
         raise missing
     try:
-        file = find_source(source, folder, None)
-    except LabelError:
+        file = find_source(source, folder)
+    except LoadError:
         raise missing from None
     return prepare_scene(load(file, restore_config(config).load))[0]
 
