@@ -31,6 +31,7 @@ __all__ = [
     "RelateConfig",
     "ReportConfig",
     "Section",
+    "config_as_read",
     "describe",
     "read_config",
     "restore_config",
@@ -51,6 +52,9 @@ class Section(BaseModel):
     """A frozen group of settings; an unknown name is an error, and so is a number in quotes or true for a number."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False, strict=True)
+
+
+_LIMITS = ("max_meshes", "max_prims", "max_shape_triangles", "max_placed_triangles", "max_growth")
 
 
 class LoadConfig(Section):
@@ -128,6 +132,10 @@ class LoadConfig(Section):
     metadata: Literal["off", "keep"] = _setting(
         "keep", "what the file says of its parts (types, tags, systems): leave it, or keep it beside the geometry"
     )
+
+    def deciding(self) -> str:
+        """The settings that decide what is read, and not only whether it is, as JSON."""
+        return self.model_dump_json(exclude={"isolate", "strict", "timeout", "memory", *_LIMITS})
 
     @model_validator(mode="after")
     def _one_way_to_measure(self) -> LoadConfig:
@@ -395,6 +403,33 @@ def read_config(path: str | Path, base: Config | None = None) -> Config:
         else:
             whole[name] = value
     return _validated(whole, str(path))
+
+
+def config_as_read(config: Config, read_with: str) -> Config:
+    """The settings with those that a scene was read with.
+
+    Args:
+        config: all settings; of those that decide what is read, each must be as it was then or its default.
+        read_with: what ``LoadConfig.deciding`` said of the settings that it was read with; empty: not known.
+
+    Raises:
+        ValueError: one of them is another, which would be kept as if the scene had been read so.
+    """
+    if not read_with:
+        return config
+    used, plain = LoadConfig.model_validate_json(read_with), LoadConfig()
+    changes: dict[str, Any] = {}
+    for name in used.model_fields_set:
+        wanted, was = getattr(config.load, name), getattr(used, name)
+        if wanted == was:
+            continue
+        if wanted != getattr(plain, name):
+            raise ValueError(
+                f"load.{name} is {wanted!r} here, but the scene was read with {was!r}: give it where the scene is "
+                "read, load(path, config.load)"
+            )
+        changes[name] = was
+    return config.model_copy(update={"load": config.load.model_copy(update=changes)}) if changes else config
 
 
 def restore_config(tree: Mapping[str, Any]) -> Config:

@@ -9,7 +9,7 @@ import numpy as np
 
 from cadgraph._io.garbage import collector_paused
 from cadgraph._io.progress import Progress, quiet
-from cadgraph.config import Config
+from cadgraph.config import Config, config_as_read
 from cadgraph.facts.statements import places_of, statements_of
 from cadgraph.facts.words import read_words
 from cadgraph.geometry.mesh.properties import measure
@@ -49,6 +49,7 @@ __all__ = [
     "CONTRADICTIONS",
     "STAGES",
     "analyse",
+    "as_read",
     "build",
     "contradicted",
     "ground_as_said",
@@ -99,6 +100,7 @@ def build(
     tree = vocabulary or default_vocabulary()
     if not isinstance(config, Config):
         raise TypeError(f"build takes a Config, not {type(config).__name__}")
+    config = as_read(scene, config)
     catalogs = [read_catalog(file) for file in config.label.catalogs]
     analysis = lay_ground(analyse(scene, config, progress, crew), corrections, config)
     progress("label", 0)
@@ -107,6 +109,18 @@ def build(
         labeling, analysis, tree, config.label, catalogs=catalogs, given=labels, corrections=corrections
     )
     return interpret(analysis, settled, tree, config, progress, edits=corrections)
+
+
+def as_read(scene: Scene, config: Config) -> Config:
+    """The settings with those that a scene was read with, which are kept beside its graph.
+
+    Raises:
+        ValueError: a setting says that it was read otherwise.
+        TypeError: it is no scene.
+    """
+    if not isinstance(scene, Scene):
+        raise TypeError(f"build takes a Scene, as cadgraph.load returns it, not {type(scene).__name__}")
+    return config_as_read(config, scene.source.read_with)
 
 
 @collector_paused()

@@ -4,9 +4,13 @@ import hashlib
 
 import pytest
 
+from cadgraph.config import Config, LoadConfig
 from cadgraph.errors import LoadError
+from cadgraph.load import load
 from cadgraph.load.source_file import find_source
 from cadgraph.model.records import SourceRecord
+from cadgraph.pipeline import build
+from cadgraph.session.session import Session
 
 TEXT = "#usda 1.0\n"
 RIGHT = hashlib.sha256(TEXT.encode()).hexdigest()
@@ -40,3 +44,66 @@ def test_another_file_of_that_name_is_passed_over_and_told_where_there_is_none_e
     assert find_source(source, folder) == folder / "plant.usda"
     with pytest.raises(LoadError, match="changed since"):
         find_source(source, folder, tmp_path / "plant.usda")
+
+
+BLOCK = """#usda 1.0
+(
+    metersPerUnit = 1
+    upAxis = "Z"
+    defaultPrim = "block"
+)
+def Mesh "block"
+{
+    int[] faceVertexCounts = [3, 3, 3, 3]
+    int[] faceVertexIndices = [0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3]
+    point3f[] points = [(0, 0, 0), (SIZE, 0, 0), (0, SIZE, 0), (0, 0, SIZE)]
+}
+"""
+ROOT = """#usda 1.0
+(
+    metersPerUnit = 1
+    upAxis = "Z"
+)
+def "a" (
+    references = @parts/block.usda@
+)
+{
+}
+"""
+
+
+@pytest.fixture
+def plant(tmp_path):
+    """A root layer and a block that it refers to."""
+    (tmp_path / "parts").mkdir()
+    (tmp_path / "parts" / "block.usda").write_text(BLOCK.replace("SIZE", "1"))
+    (tmp_path / "plant.usda").write_text(ROOT)
+    return tmp_path / "plant.usda"
+
+
+@pytest.mark.parametrize("isolate", [True, False])
+def test_a_file_that_the_source_refers_to_belongs_to_it(plant, isolate):
+    block = plant.parent / "parts" / "block.usda"
+    scene = load(plant, LoadConfig(isolate=isolate))
+    assert scene.source.referred == (("parts/block.usda", hashlib.sha256(block.read_bytes()).hexdigest()),)
+    record = build(scene).source
+    assert find_source(record, None) == plant
+    block.write_text(BLOCK.replace("SIZE", "2"))
+    with pytest.raises(
+        LoadError, match=r"block\.usda: changed since the graph was built, and plant\.usda refers to it"
+    ):
+        find_source(record, None)
+    block.unlink()
+    with pytest.raises(LoadError, match="is not there any more"):
+        find_source(record, None)
+
+
+def test_the_settings_that_a_scene_was_read_with_are_kept(plant):
+    scene = load(plant, LoadConfig(scale=0.5, isolate=False))
+    assert build(scene).config["load"]["scale"] == 0.5
+    assert build(scene, Config().replace({"load.scale": 0.5})).config["load"]["scale"] == 0.5
+    for start in (build, Session.start):
+        with pytest.raises(ValueError, match=r"load\.scale is 5\.0 here, but the scene was read with 0\.5"):
+            start(scene, Config().replace({"load.scale": 5.0}))
+    limited = Config().replace({"load.timeout": 5.0})
+    assert build(scene, limited).config["load"]["timeout"] == 5.0

@@ -68,8 +68,7 @@ class AskingOptions:
             if self.labeler_ not in who:
                 raise ValueError(f"--labeler {self.labeler_}: give {', '.join(who)}")
             changes["lvlm.ask"] = who[self.labeler_]
-            if self.labeler_ == "none":
-                changes["label.labeler"] = "none"
+            changes["label.labeler"] = "none" if self.labeler_ == "none" else "embedded"
         if self.dry_run and self.batch:
             raise ValueError("--dry-run asks nobody and --batch prepares asking; give one of them")
         given = {

@@ -134,7 +134,8 @@ def load(path: str | os.PathLike[str], config: LoadConfig | None = None) -> Scen
         from cadgraph.load.losses import refuse_losses
 
         refuse_losses(scene, given)
-    return replace(scene, source=replace(scene.source, path=given, sha256=digest, format=form.name))
+    source = replace(scene.source, path=given, sha256=digest, format=form.name, read_with=config.deciding())
+    return replace(scene, source=source)
 
 
 def _check_file(file: Path, given: str) -> None:

@@ -33,14 +33,28 @@ def find_source(
     there = [path for path in tried if _is_there(path, option)]
     if not there:
         raise LoadError(f"{tried[0]}: the file that the graph was made from is not there; give it with {option} FILE")
-    digests = {path: _digest(path, option) for path in there} if source.sha256 else {}
-    found = next((path for path in there if not source.sha256 or digests[path] == source.sha256), None)
+    differences = {path: _difference(path, source, option) for path in there}
+    found = next((path for path in there if not differences[path]), None)
     if found is None:
-        raise LoadError(
-            f"{there[0]}: changed since the graph was built, or another file (sha256 {digests[there[0]][:12]}..., but "
-            f"{source.sha256[:12]}... in the graph); give that one with {option} FILE, or build the graph anew"
-        )
+        raise LoadError(f"{differences[there[0]]}; give that one with {option} FILE, or build the graph anew")
     return found
+
+
+def _difference(path: Path, source: SourceRecord, option: str) -> str:
+    """How a file differs from the one that a graph was made from; empty where it doesn't."""
+    digest = _digest(path, option) if source.sha256 else ""
+    if digest != source.sha256:
+        return (
+            f"{path}: changed since the graph was built, or another file (sha256 {digest[:12]}..., but "
+            f"{source.sha256[:12]}... in the graph)"
+        )
+    for name, known in source.referred:
+        file = path.parent / name
+        if not _is_there(file, option):
+            return f"{file}: is not there any more, and {path.name} refers to it"
+        if _digest(file, option) != known:
+            return f"{file}: changed since the graph was built, and {path.name} refers to it"
+    return ""
 
 
 def _is_there(path: Path, option: str) -> bool:

@@ -19,6 +19,7 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -27,6 +28,7 @@ import numpy as np
 import numpy.typing as npt
 from pxr import Tf, UsdGeom, UsdUtils
 
+from cadgraph._io.digest import sha256_of
 from cadgraph._io.text import printable
 from cadgraph.errors import LoadError
 from cadgraph.load.budget import Budget
@@ -108,7 +110,33 @@ def _scene(stage: Any, config: LoadConfig, notes: Notes, budget: Budget, take_wa
     materials = Materials(stage, notes) if walk.has_bindings else None
     pieces = list(_pieces(placements, meshes, materials, config.split_subsets, notes))
     take_warnings()
-    return pack(pieces, source, world_from_source, notes, _ABRIDGED)
+    return pack(pieces, replace(source, referred=_referred(stage)), world_from_source, notes, _ABRIDGED)
+
+
+def _referred(stage: Any) -> tuple[tuple[str, str], ...]:
+    """The files that a stage is made of beside its root: path from the root's folder, SHA-256."""
+    root = _file_of(stage.GetRootLayer())
+    files = {file for layer in stage.GetUsedLayers() if (file := _file_of(layer)) and file != root}
+    found = []
+    for file in sorted(files):
+        try:
+            found.append((_seen_from(file, root), sha256_of(Path(file))))
+        except OSError:
+            continue  # what was read and is gone can't be told from what was changed
+    return tuple(found)
+
+
+def _file_of(layer: Any) -> str:
+    """The file that holds a layer, of a package the package; empty for a layer in memory."""
+    path = str(layer.realPath or "")
+    return path.split("[", 1)[0] if path.endswith("]") else path
+
+
+def _seen_from(file: str, root: str) -> str:
+    try:
+        return Path(os.path.relpath(file, os.path.dirname(root))).as_posix()
+    except ValueError:  # another drive
+        return Path(file).as_posix()
 
 
 def _units(stage: Any, notes: Notes) -> tuple[Source, Floats]:

@@ -67,6 +67,12 @@ class SourceRecord(Record):
     up_axis: str = "Z"
     n_meshes: int = Field(0, ge=0)
     n_triangles: int = Field(0, ge=0)
+    referred: tuple[tuple[str, str], ...] = Field(
+        default=(),
+        exclude_if=lambda referred: not referred,
+        description="other files that its geometry comes from: path from the folder of the file, sha256; absent where "
+        "there is none",
+    )
 
 
 class OrientedBox(Record):

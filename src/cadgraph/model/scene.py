@@ -48,6 +48,9 @@ class Source:
         unit_stated: whether the file itself names its unit; where not, it is found by what the parts measure.
         up_stated: likewise of the up axis.
         metadata: what else the file says of itself as a whole (project, author's program, georeference), by name.
+        referred: the other files that its geometry comes from: path from the folder of the file, SHA-256.
+        read_with: the settings that it was read with, as far as they decide what is read, as JSON; empty where no
+            file was read.
     """
 
     path: str = ""
@@ -58,6 +61,8 @@ class Source:
     unit_stated: bool = True
     up_stated: bool = True
     metadata: tuple[tuple[str, str], ...] = ()
+    referred: tuple[tuple[str, str], ...] = ()
+    read_with: str = ""
 
 
 @dataclass(frozen=True, eq=False)

@@ -86,8 +86,7 @@ def reopen(
         labeler: says what the parts are; the one that is set if None.
         progress: called with the name of a stage and the share of it that is done.
         scene: what ``load`` makes of the source, if it is at hand.
-        keep: whether each correction is written into the folder at once, before the session says that it is done. The
-            folder may then hold corrections that ``graph`` doesn't show, so that the session makes its graph anew.
+        keep: whether each correction is written into the folder at once, before the session says that it is done.
 
     Raises:
         LabelError: the corrections can't be read.
@@ -110,7 +109,6 @@ def reopen(
         labeler=labeler,
         history=history,
         file=file if keep else None,
-        graph=graph if not keep and (labeler is None or isinstance(labeler, FormerLabeler)) else None,
         progress=progress,
     )
 

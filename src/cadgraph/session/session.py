@@ -28,7 +28,7 @@ from cadgraph.model.parts import Parts
 from cadgraph.model.records import Part
 from cadgraph.model.scene import Scene
 from cadgraph.model.vocabulary import Vocabulary, default_vocabulary
-from cadgraph.pipeline import analyse, contradicted, ground_as_said, interpret, lay_ground
+from cadgraph.pipeline import analyse, as_read, contradicted, ground_as_said, interpret, lay_ground
 from cadgraph.session.requests import EditRequest, Requests, read_requests
 from cadgraph.session.told import tell_flow, tell_followers, tell_lines, tell_renamed, tell_units
 
@@ -78,7 +78,6 @@ class Session:
         vocabulary: the tree that the labels are from; the built-in one if None.
         given: labels of source meshes from outside.
         corrections: made before, of which nothing else is known.
-        graph: that follows from all this, where it is at hand.
         history: of all corrections made before, in place of ``corrections``.
         file: that each correction is written to before it counts; None keeps them in memory alone.
         labeler: is asked again where the ground changes, and parts with it; None, or one that asks a model, is not:
@@ -97,7 +96,6 @@ class Session:
         vocabulary: Vocabulary | None = None,
         given: Sequence[GivenLabel] = (),
         corrections: Sequence[Edit] = (),
-        graph: SceneGraph | None = None,
         history: History | None = None,
         file: CorrectionsFile | None = None,
         labeler: Labeler | None = None,
@@ -108,7 +106,7 @@ class Session:
         self._history = History.of(corrections) if history is None else history
         self._file, self._labeler = file, labeler
         self._known: SettledLabels | None = None
-        self._graph = graph
+        self._graph: SceneGraph | None = None
         self._grounds: dict[bytes, tuple[Analysis, Labeling]] = {}
         self._follow_ground()
 
@@ -122,7 +120,6 @@ class Session:
         vocabulary: Vocabulary | None = None,
         labeler: Labeler | None = None,
         corrections: Sequence[Edit] = (),
-        graph: SceneGraph | None = None,
         history: History | None = None,
         file: CorrectionsFile | None = None,
         progress: Progress = quiet,
@@ -130,6 +127,7 @@ class Session:
     ) -> Session:
         """Analyses a scene and asks a labeler about its parts; see ``cadgraph.build`` for arguments and errors."""
         config, tree = config or Config(), vocabulary or default_vocabulary()
+        config = as_read(scene, config)
         history = History.of(corrections) if history is None else history
         analysis = lay_ground(analyse(scene, config, progress, crew), history.in_force, config)
         progress("label", 0)
@@ -143,7 +141,6 @@ class Session:
             config,
             vocabulary=tree,
             given=labels,
-            graph=graph,
             history=history,
             file=file,
             labeler=labeler,

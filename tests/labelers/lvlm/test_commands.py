@@ -402,3 +402,16 @@ def test_labelling_anew_needs_the_same_scene(capsys, scene_file, tmp_path):
     code, _, err = run(capsys, "label", out, "--from-folder", out / "lvlm" / "questions", "--no-report")
     assert code == 2
     assert "--scene" in err
+
+
+def test_labelling_anew_without_a_model_takes_its_options_and_leaves_nothing_of_the_model(capsys, labelled, scene_file):
+    folder, built = labelled
+    assert run(capsys, "label", folder, "--labeler", "none", "--no-report")[0] == 0
+    assert set(labels_in(folder).values()) == {None}
+    assert SceneGraph.load(folder).config["label"]["labeler"] == "none"
+    assert run(capsys, "label", folder, "--labeler", "embedded", "--set", "cluster.eps=0.02", "--no-report")[0] == 0
+    again = SceneGraph.load(folder)
+    assert (again.config["cluster"]["eps"], again.config["lvlm"]["ask"]) == (0.02, "never")
+    assert run(capsys, "build", scene_file, "-o", folder, *SMALL, "--set", "cluster.eps=0.02")[0] == 0
+    assert labels_in(folder) == {part.meshes[0]: part.label and part.label.said for part in again.parts()}
+    assert (folder / "graph.json").read_bytes() != built

@@ -86,7 +86,8 @@ def _columns(path: Path, texts: Sequence[str], width: int) -> list[list[str]]:
 
 
 def _source(values: dict[str, Any]) -> Source:
-    return Source(**{**values, "metadata": tuple((name, value) for name, value in values["metadata"])})
+    pairs = {key: tuple((name, value) for name, value in values[key]) for key in ("metadata", "referred")}
+    return Source(**{**values, **pairs})
 
 
 def _array(path: Path) -> Any:

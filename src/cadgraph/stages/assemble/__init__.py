@@ -70,6 +70,7 @@ def _assembled(results: Results, vocabulary: Vocabulary, config: dict[str, objec
                 up_axis=scene.source.up_axis,
                 n_meshes=scene.n_meshes,
                 n_triangles=scene.n_triangles,
+                referred=scene.source.referred,
             ),
             vocabulary=vocabulary.to_json(),
             config=config,
