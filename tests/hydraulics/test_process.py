@@ -166,6 +166,18 @@ def test_speed_changes_the_head_by_its_square(plant):
 # Valves that move by themselves
 
 
+@pytest.mark.parametrize(
+    "order", [({"V-001": 0}, {"P-001": 0}), ({"P-001": 0}, {"V-001": 0}), ({"V-001": 0, "P-001": 0},)]
+)
+def test_what_a_starved_pump_draws_empty_is_not_filled_through_a_check_valve(plant, order):
+    for commands in order:
+        state = plant.steady(commands)
+    assert state.cavitating == ("P-002",)
+    assert {"unit-G-001", "unit-G-002"} <= state.shut_in
+    assert state.reading["G-001"] == state.reading["G-002"] == 0.0
+    assert state.opening["V-004"] == 0.0
+
+
 def test_a_check_valve_holds_back_what_comes_from_the_other_pump(plant):
     assert plant.steady({"P-001": 0.0}).opening["V-004"] == 0
     assert flow_of(plant, "V-004") == 0

@@ -195,6 +195,27 @@ class Reach:
         found: Bools = onward[self.pumps] & one_way[self.pumps] & ~fed[starts]
         return found
 
+    def held(self, shut: Bools, one_way: Bools, starved: Bools) -> Bools:
+        """``(n_links, n_plants)`` valves that would let out of what starved pumps draw empty, which holds them shut.
+
+        Args:
+            shut: ``(n_links, n_plants)`` where nothing can flow.
+            one_way: ``(n_links, n_plants)`` where nothing flows from end to start.
+            starved: ``(n_pumps, n_plants)``, as :meth:`starved` found them.
+        """
+        plants = np.flatnonzero(starved.any(axis=0))
+        found = np.zeros(shut.shape, bool)
+        if not len(plants):
+            return found
+        onward = ~shut[:, plants]
+        empty = np.zeros((len(self.circuit.nodes), len(plants)), bool)
+        for number, pump in enumerate(self.pumps.tolist()):
+            empty[self._ends[pump][0]] |= starved[number, plants]
+        self._flood(empty, onward & ~one_way[:, plants], onward)
+        out = empty[self.circuit.start] & ~empty[self.circuit.end]
+        found[:, plants] = onward & one_way[:, plants] & out
+        return found
+
     def emptied(self, head: Floats, flow: Floats, opened: Bools, to_air: Bools) -> Bools:
         """``(n_nodes, n_plants)`` where nothing flows and air has got to, above what stands in the pipe below.
 

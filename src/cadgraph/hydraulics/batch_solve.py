@@ -162,8 +162,9 @@ class BatchSolver:
         """
         usable, starved = ~given.shut, self.reach.starved(given.shut, given.one_way)
         usable[self.pumps] &= ~starved
-        turning = given.one_way & usable
-        opened = np.where(turning, last.open, usable)
+        held = self.reach.held(given.shut, given.one_way, starved)
+        turning = given.one_way & usable & ~held
+        opened = np.where(turning, last.open, usable & ~held)
         # What a pump gives at no flow stands behind it, whatever was shut before.
         opened[self.pumps] = usable[self.pumps]
         n = given.square.shape[1]

@@ -166,12 +166,13 @@ class Solver:
             condition: what it stands under.
             last: a state to begin from; the nearer, the faster.
         """
-        starved, pulled = self._starved(condition)
+        starved, pulled, held = self._starved(condition)
         turning = condition.one_way & ~condition.shut
-        turning[starved] = False
+        turning[starved] = turning[held] = False
         usable = ~condition.shut
         usable[starved] = False
         opened = usable & (self.circuit.kind != LinkKind.RELIEF)
+        opened[held] = False
         choked: tuple[int, ...] = ()
         flow = self._first
         if last is not None:
@@ -431,8 +432,11 @@ class Solver:
                 break
         return heads
 
-    def _starved(self, condition: Condition) -> tuple[Ints, Ints]:
-        """The running pumps that nothing can flow to, and the nodes that they draw from."""
+    def _starved(self, condition: Condition) -> tuple[Ints, Ints, Ints]:
+        """The running pumps that nothing can flow to, the nodes that they draw from, and what they hold shut.
+
+        A valve that would let out of what they draw empty lets nothing through, whatever the pressure behind it was.
+        """
         key = condition.shut.tobytes() + condition.one_way.tobytes()
         if key not in self._known_starved:
             if len(self._known_starved) > 1000:
@@ -440,21 +444,24 @@ class Solver:
             self._known_starved[key] = self._find_starved(condition)
         return self._known_starved[key]
 
-    def _find_starved(self, condition: Condition) -> tuple[Ints, Ints]:
+    def _find_starved(self, condition: Condition) -> tuple[Ints, Ints, Ints]:
         circuit = self.circuit
         onward: list[list[int]] = [[] for _ in circuit.nodes]
+        upstream: list[list[int]] = [[] for _ in circuit.nodes]
         feeding: set[int] = set(np.flatnonzero(circuit.fixed).tolist())
         for link in np.flatnonzero(~condition.shut):
             a, b = int(circuit.start[link]), int(circuit.end[link])
             onward[a].append(b)
+            upstream[b].append(a)
             if not condition.one_way[link]:
                 onward[b].append(a)
+                upstream[a].append(b)
 
-        def reached(seeds: Iterable[int]) -> set[int]:
+        def reached(seeds: Iterable[int], ways: Sequence[Sequence[int]] = onward) -> set[int]:
             seen = set(seeds)
             waiting = list(seen)
             while waiting:
-                for there in onward[waiting.pop()]:
+                for there in ways[waiting.pop()]:
                     if there not in seen:
                         seen.add(there)
                         waiting.append(there)
@@ -472,7 +479,10 @@ class Solver:
             if int(circuit.start[link]) not in fed:
                 starved.append(int(link))
         found = np.array(starved, int)
-        return found, circuit.start[found]
+        empty = np.zeros(len(circuit.nodes), bool)
+        empty[list(reached(circuit.start[found].tolist(), upstream))] = True
+        held = condition.one_way & ~condition.shut & empty[circuit.start] & ~empty[circuit.end]
+        return found, circuit.start[found], np.flatnonzero(held)
 
     # What lets pass one way only
 
