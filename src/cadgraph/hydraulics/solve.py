@@ -133,7 +133,7 @@ class Solver:
         self._lay_pattern()
         self._first = circuit.creep * (_START / CREEP)
         self._known_pieces: dict[bytes, _Pieces] = {}
-        self._known_starved: dict[bytes, tuple[Ints, Ints]] = {}
+        self._known_starved: dict[bytes, tuple[Ints, Ints, Ints]] = {}
 
     def _lay_pattern(self) -> None:
         """Where in the matrix each link counts; that stays as it is, only the values change."""
