@@ -3,6 +3,7 @@ import warnings
 import numpy as np
 import pytest
 
+from cadgraph.model.graph import SceneGraph
 from networks import chain, network, pumping, terminal, unit
 
 gymnasium = pytest.importorskip("gymnasium")
@@ -67,6 +68,21 @@ def test_a_pump_is_isolated_once_it_stands_still_and_nothing_reaches_it():
     _, reward, done, _, _ = env.step(action(env, **shut))
     assert done
     assert reward > 0.5
+
+
+def test_a_task_may_be_given_to_several_plants():
+    task = ReachReading("G-003", 0.1)
+    first = PlantEnv(pumping(), task=task, dt=0.01, seconds=60, shuffle=False)
+    asked = action(first)
+    alone = first.step(asked)[1]
+    PlantEnv(tanked(), task=KeepLevel("T-001"))
+    other = pumping()
+    nodes = [node for node in other.document.nodes if getattr(node, "tag", "") != "G-001"]
+    edges = [edge for edge in other.document.edges if "unit-G-001" not in (edge.source, getattr(edge, "target", ""))]
+    PlantEnv(SceneGraph(other.document.model_copy(update={"nodes": tuple(nodes), "edges": tuple(edges)})), task=task)
+    assert first.step(action(first))[1] == alone
+    with pytest.raises(ValueError, match="give a Task"):
+        PlantEnv(pumping(), task="isolate P-001")
 
 
 def test_a_tank_that_runs_over_has_failed():

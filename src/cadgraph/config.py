@@ -371,6 +371,8 @@ class Config(Section):
         Raises:
             ValueError: a name is unknown or a value out of its limits.
         """
+        if not isinstance(changes, Mapping) or not all(isinstance(name, str) for name in changes):
+            raise ValueError("give values by dotted name, {'cluster.eps': 0.02}")
         tree = self.model_dump()
         for name, value in changes.items():
             at: Any = tree

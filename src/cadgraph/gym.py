@@ -14,6 +14,7 @@ One environment stands on a :class:`~cadgraph.hydraulics.process.Process`, many 
 
 from __future__ import annotations
 
+import copy
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
@@ -270,7 +271,9 @@ class _Shape:
         return np.where(lot.random(size) < _SHUFFLED, other, self.opening)
 
 
-def _check(process: Process, dt: float, seconds: float) -> None:
+def _check(process: Process, dt: float, seconds: float, task: object) -> None:
+    if task is not None and not isinstance(task, Task):
+        raise ValueError(f"task: give a Task, as ReachReading(gauge, value), not {task!r:.60}")
     if not process.balance.hand and not process.balance.speed:
         raise ValueError("nothing can be moved in this plant: it has no valve and no pump with a line")
     if not (0 < dt <= MOST_SECONDS and dt <= seconds < math.inf):
@@ -314,12 +317,14 @@ class PlantEnv(gymnasium.Env[npt.NDArray[np.float32], npt.NDArray[np.float32]]):
     ) -> None:
         self.process = Process(graph, scenario)
         """The plant, for reading."""
-        _check(self.process, dt, seconds)
-        self.task, self.dt, self.seconds, self.shuffle, self.render_mode = task, dt, seconds, shuffle, render_mode
+        _check(self.process, dt, seconds, task)
+        # A copy, as a task is bound to one plant.
+        self.task = copy.deepcopy(task)
+        self.dt, self.seconds, self.shuffle, self.render_mode = dt, seconds, shuffle, render_mode
         self._shape = _Shape.of(self.process)
         self._n_connections = len(self.process.network.graph.of_kind(Connected))
-        if task is not None:
-            task.bind(self.process)
+        if self.task is not None:
+            self.task.bind(self.process)
         self.action_space = self._shape.action_space()
         self.observation_space = self._shape.observation_space()
 
@@ -417,11 +422,13 @@ class PlantVectorEnv(VectorEnv[npt.NDArray[np.float32], npt.NDArray[np.float32],
         self.num_envs = num_envs
         self.plants = ProcessBatch(graph, scenario, num_envs)
         """The plants, for reading."""
-        _check(self.plants.process, dt, seconds)
-        self.task, self.dt, self.seconds, self.shuffle, self.render_mode = task, dt, seconds, shuffle, render_mode
+        _check(self.plants.process, dt, seconds, task)
+        # A copy, as a task is bound to one plant.
+        self.task = copy.deepcopy(task)
+        self.dt, self.seconds, self.shuffle, self.render_mode = dt, seconds, shuffle, render_mode
         self._shape = _Shape.of(self.plants.process)
-        if task is not None:
-            task.bind(self.plants.process)
+        if self.task is not None:
+            self.task.bind(self.plants.process)
         self.single_action_space = self._shape.action_space()
         self.single_observation_space = self._shape.observation_space()
         self.action_space = batch_space(self.single_action_space, num_envs)

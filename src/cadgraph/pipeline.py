@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import reprlib
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import get_args
 
 import numpy as np
 
@@ -51,6 +53,7 @@ __all__ = [
     "analyse",
     "as_read",
     "build",
+    "check_asked",
     "contradicted",
     "ground_as_said",
     "interpret",
@@ -94,13 +97,14 @@ def build(
     Raises:
         LabelError: a label names a mesh that is not in the scene, or a catalogue can't be read.
         ValueError: a setting names a mesh that is not in the scene, or the scene's arrays don't fit together.
-        TypeError: ``scene`` is no scene, or ``config`` no configuration.
+        TypeError: an argument is none of its kind.
     """
     config = config or Config()
     tree = vocabulary or default_vocabulary()
     if not isinstance(config, Config):
         raise TypeError(f"build takes a Config, not {type(config).__name__}")
     config = as_read(scene, config)
+    check_asked(tree, labeler, labels, corrections)
     catalogs = [read_catalog(file) for file in config.label.catalogs]
     analysis = lay_ground(analyse(scene, config, progress, crew), corrections, config)
     progress("label", 0)
@@ -109,6 +113,25 @@ def build(
         labeling, analysis, tree, config.label, catalogs=catalogs, given=labels, corrections=corrections
     )
     return interpret(analysis, settled, tree, config, progress, edits=corrections)
+
+
+def check_asked(vocabulary: object, labeler: object, labels: object, corrections: object) -> None:
+    """Makes sure that what ``build`` is given is what it takes.
+
+    Raises:
+        TypeError: it isn't; the message says what is.
+    """
+    if not isinstance(vocabulary, Vocabulary):
+        raise TypeError(f"vocabulary: give what read_vocabulary returns, not {reprlib.repr(vocabulary)}")
+    if labeler is not None and not callable(getattr(labeler, "label", None)):
+        raise TypeError(f"labeler: give an object with a method label, not {reprlib.repr(labeler)}")
+    for name, given, kinds, such_as in (
+        ("labels", labels, (GivenLabel,), "those that read_labels returns"),
+        ("corrections", corrections, get_args(Edit), "those of a Session; what its apply takes is none yet"),
+    ):
+        wrong = [one for one in given if not isinstance(one, kinds)] if isinstance(given, Sequence) else [given]
+        if wrong:
+            raise TypeError(f"{name}: give a list of {such_as}, not {reprlib.repr(wrong[0])}")
 
 
 def as_read(scene: Scene, config: Config) -> Config:

@@ -47,6 +47,8 @@ def query(plant: Plant, sql: Annotated[str, "one SELECT"], page: int = 1) -> Ans
     Raises:
         AskError: it is no such query, which is told with the tables that there are, or took too much time or memory.
     """
+    if not isinstance(sql, str):
+        raise AskError("sql: give one SELECT as a text")
     try:
         found = plant.tables.ask(sql)
     except Stopped:

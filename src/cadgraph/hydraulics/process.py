@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import reprlib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from numbers import Real
@@ -120,7 +121,8 @@ class Process:
             ValueError: nothing is called so, it can't be moved, or a value can't be.
         """
         self._command(commands or {})
-        if not 0 < dt <= MOST_SECONDS:
+        length: object = dt
+        if not isinstance(length, Real) or not 0 < float(length) <= MOST_SECONDS:
             raise ValueError(f"dt {dt}: give a time above 0 s, and at most {MOST_SECONDS:g} s")
         pieces = max(1, math.ceil(dt / LONGEST - 1e-9))
         for _ in range(pieces):
@@ -163,6 +165,8 @@ class Process:
 
     def _command(self, commands: Mapping[str, float]) -> None:
         """Takes over commands, all of them or none."""
+        if not isinstance(commands, Mapping):
+            raise ValueError(f"commands: give values by tag, {{'V-001': 0}}, not {reprlib.repr(commands)}")
         found: dict[str, float] = {}
         for name, value in commands.items():
             tag = self._tag(name)

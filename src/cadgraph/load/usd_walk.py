@@ -26,6 +26,11 @@ _VISIBLE_SCENE = Usd.TraverseInstanceProxies(Usd.PrimDefaultPredicate)
 # Prototypes of a point instancer are often kept under an over or a class, where no prim counts as defined.
 _PROTOTYPE = Usd.TraverseInstanceProxies(Usd.PrimIsActive & Usd.PrimIsLoaded & Usd.PrimHasDefiningSpecifier)
 _WATCHED = 1000  # prims from one look at the memory to the next; they take a few megabytes
+_HIDDEN = ("hidden", "left out: hidden in the file; set load.invisible = true to load it")
+_INACTIVE = (
+    "inactive-item",
+    "left out: the point instancer says that this item is inactive; activate it in the source",
+)
 _IDENTITY: Floats = np.eye(4)
 _NO_INTS: Ints = np.zeros(0, np.int64)
 
@@ -367,7 +372,7 @@ class Walk:
         if place.purpose not in self._purposes:
             return "other-purpose", f"left out: purpose {place.purpose!r}; add it to load.purposes to load it"
         if not place.visible and not self._invisible:
-            return "hidden", "left out: hidden in the file; set load.invisible = true to load it"
+            return _HIDDEN
         return None
 
     def _mesh(self, prim: Any, predicate: Any) -> RawMesh:
@@ -466,15 +471,15 @@ class Walk:
             if not 0 <= which < len(prototypes):
                 continue
             color = own if item_colors is None else item_colors[item]
-            skipped = ("hidden", "left out: hidden in the file; set load.invisible = true to load it")
+            skipped = hidden.get(item)
             for part in prototypes[which]:
                 found.append(
                     part._replace(
                         path=f"{path}[{item}]{part.path if len(prototypes[which]) > 1 else ''}",
                         matrix=part.matrix @ matrix @ place.matrix,
                         color=part.color if part.color is not None else color,
-                        geometry=None if item in hidden else part.geometry,
-                        skipped=skipped if item in hidden else part.skipped,
+                        geometry=part.geometry if skipped is None else None,
+                        skipped=part.skipped if skipped is None else skipped,
                     )
                 )
         return found
@@ -486,15 +491,15 @@ class Walk:
             return []
         return self._below(prim, place, _PROTOTYPE, len(str(target)))
 
-    def _hidden_items(self, instancer: Any, n: int) -> set[int]:
-        """Items that are deactivated, and those that the file hides unless they are asked for."""
+    def _hidden_items(self, instancer: Any, n: int) -> dict[int, tuple[str, str]]:
+        """Items that are deactivated, and those that the file hides unless they are asked for, with what is said."""
         inactive = instancer.GetPrim().GetMetadata("inactiveIds")
         off = set(inactive.GetAddedOrExplicitItems()) if inactive else set()
-        if not self._invisible:
-            off |= set(_ints(self._read(instancer.GetInvisibleIdsAttr())).tolist())
+        hidden = () if self._invisible else _ints(self._read(instancer.GetInvisibleIdsAttr())).tolist()
         known = _ints(self._read(instancer.GetIdsAttr()))
         numbers = known.tolist() if len(known) == n else range(n)
-        return {i for i, number in enumerate(numbers) if number in off}
+        why = dict.fromkeys(hidden, _HIDDEN) | dict.fromkeys(off, _INACTIVE)
+        return {i: why[number] for i, number in enumerate(numbers) if number in why}
 
     def _item_matrices(self, instancer: Any, n: int) -> Floats:
         """``(m, 4, 4)`` for row vectors, m the number of items that have a position, at most n."""

@@ -107,8 +107,8 @@ class Content(ABC):
 
     @property
     @abstractmethod
-    def places(self) -> tuple[Node, ...]:
-        """At least all nodes that lines run between."""
+    def nodes_but_parts(self) -> tuple[Node, ...]:
+        """All nodes that are no part."""
 
     @abstractmethod
     def find(self, which: str, layers: tuple[type[Node], ...]) -> Node:
@@ -190,8 +190,8 @@ class WholeContent(Content):
         return Counter(part.label.said for part in self.of_layer(Part) if part.label is not None)
 
     @property
-    def places(self) -> tuple[Node, ...]:
-        return self.head.nodes
+    def nodes_but_parts(self) -> tuple[Node, ...]:
+        return tuple(node for node in self.head.nodes if not isinstance(node, Part))
 
     def find(self, which: str, layers: tuple[type[Node], ...]) -> Node:
         return self._names.find(which, layers)
@@ -341,8 +341,8 @@ class ShardedContent(Content):
         return Counter({(group, name): n for group, name, n in self._shards.index.labels})
 
     @property
-    def places(self) -> tuple[Node, ...]:
-        return self.head.nodes
+    def nodes_but_parts(self) -> tuple[Node, ...]:
+        return tuple(node for node in self.head.nodes if not isinstance(node, Part))
 
     def find(self, which: str, layers: tuple[type[Node], ...]) -> Node:
         part = self.nodes.get(which) if which not in self._few else None

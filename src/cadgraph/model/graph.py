@@ -5,6 +5,7 @@ Nodes and edges load as they are with ``networkx.node_link_graph(data, edges="ed
 
 from __future__ import annotations
 
+import copy
 import hashlib
 import reprlib
 from collections import Counter, deque
@@ -32,6 +33,7 @@ from cadgraph.model.records import (
     Cluster,
     Connected,
     Contains,
+    Edge,
     GraphDocument,
     Joint,
     Junction,
@@ -102,8 +104,8 @@ class SceneGraph:
 
     @property
     def config(self) -> dict[str, Any]:
-        """The settings that it was made with."""
-        return self._content.head.config
+        """The settings that it was made with; a copy."""
+        return copy.deepcopy(self._content.head.config)
 
     @property
     def diagnostics(self) -> tuple[Diagnostic, ...]:
@@ -116,26 +118,42 @@ class SceneGraph:
         return self.of_layer(Site)[0]
 
     def of_layer(self, layer: type[AnyNode]) -> list[AnyNode]:
-        """All nodes of a class (``Part``, ``Unit``...), in the order of the file."""
+        """All nodes of a class (``Part``, ``Unit``...), in the order of the file.
+
+        Raises:
+            TypeError: it is no class.
+        """
+        _check_class(layer, "Part")
         return self._content.of_layer(layer)
 
     def of_kind(self, kind: type[AnyEdge]) -> list[AnyEdge]:
-        """All edges of a class (``Adjacent``, ``Related``...), in the order of the file."""
+        """All edges of a class (``Adjacent``, ``Related``...), in the order of the file.
+
+        Raises:
+            TypeError: it is no class.
+        """
+        _check_class(kind, "Adjacent")
         return self._content.of_kind(kind)
 
     def count(self, what: str) -> int:
-        """How many nodes of a layer (``"part"``), or edges of a kind (``"adjacent"``), there are; none is read."""
+        """How many nodes of a layer (``"part"``), or edges of a kind (``"adjacent"``), there are; none is read.
+
+        Raises:
+            ValueError: no layer and no kind is called so.
+        """
+        if what not in _COUNTED:
+            raise ValueError(f"nothing is counted as {what!r:.60}; there are {', '.join(sorted(_COUNTED))}")
         return self._content.count_layer(what) + self._content.count_kind(what)
 
     @property
     def label_counts(self) -> Mapping[tuple[str, str | None], int]:
-        """How many parts have which group and name."""
-        return self._content.labels
+        """How many parts have which group and name; a copy."""
+        return Counter(self._content.labels)
 
     @property
-    def places(self) -> tuple[Node, ...]:
-        """At least all units, junctions and terminals, in the order of the file; of a graph in shards no part."""
-        return self._content.places
+    def nodes_but_parts(self) -> tuple[Node, ...]:
+        """All nodes that are no part, in the order of the file; of a graph in shards none else is read for it."""
+        return self._content.nodes_but_parts
 
     def clusters(self, kind: str | None = None) -> list[Cluster]:
         """All connected structures, or those of one kind (``"pipe system"``)."""
@@ -226,16 +244,20 @@ class SceneGraph:
 
         Raises:
             UnknownNode: there is none, which is a ``KeyError``; the message names the nearest ones.
+            TypeError: it is no name.
         """
-        return self._content.find(which, layers or get_args(Node))
+        # A node stands for itself; whatever else is no text is told as such.
+        name = which if isinstance(which, str) else self._resolve(which).id
+        return self._content.find(name, layers or get_args(Node))
 
     def unit_of(self, part: Part | str) -> Unit | None:
-        """The unit that a part belongs to, if any.
+        """The unit that a part belongs to, if any; a unit belongs to itself.
 
         Raises:
             KeyError: the part is not in the graph.
         """
-        node = self.nodes.get(self._content.unit_of(self._resolve(part).id) or "")
+        here = self._resolve(part)
+        node = here if isinstance(here, Unit) else self.nodes.get(self._content.unit_of(here.id) or "")
         return node if isinstance(node, Unit) else None
 
     def cluster_of(self, node: Part | Unit | str) -> Cluster | None:
@@ -464,7 +486,7 @@ class SceneGraph:
 
     @cached_property
     def _pipework(self) -> Pipework:
-        return Pipework(self._content.places, self.of_kind(Connected))
+        return Pipework(self._content.nodes_but_parts, self.of_kind(Connected))
 
     def _related_at(self, unit: str) -> list[Related]:
         return [edge for edge in self.of_kind(Related) if unit in (edge.source, edge.target)]
@@ -529,6 +551,17 @@ def _shard_above(config: Mapping[str, Any]) -> int:
     written = config.get("graph")
     above = written.get("shard_above") if isinstance(written, Mapping) else None
     return above if isinstance(above, int) and above > 0 else ABOVE
+
+
+_COUNTED = frozenset(
+    {str(one.model_fields["layer"].default) for one in get_args(Node)}
+    | {str(one.model_fields["kind"].default) for one in get_args(Edge)}
+)
+
+
+def _check_class(given: object, such_as: str) -> None:
+    if not isinstance(given, type):
+        raise TypeError(f"give a class, as cadgraph.{such_as}, not {reprlib.repr(given)}")
 
 
 def _check_way(node: Node, direction: str | None) -> None:

@@ -253,6 +253,9 @@ class Unit(Record):
     )
     facts: tuple[SourceFact, ...] = _facts("what the file says of nodes above several of its parts")
 
+    def __hash__(self) -> int:
+        return hash(self.id)
+
 
 class Junction(Record):
     """A point where three or more branches of connectors meet."""

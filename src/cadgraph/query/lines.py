@@ -20,6 +20,8 @@ LineFlow = Literal["forward", "backward", "none", "unknown", "contradictory"]
 
 _NUMBERS = 10_000
 _GRID = 0.1  # m; lines that join no unit are told apart by place, to this
+# m; off the round numbers that plants are drawn in, which would lie on the edge between two squares of that grid.
+_OFF = 0.0137
 
 
 @dataclass(frozen=True)
@@ -155,7 +157,10 @@ def _flowing(run: list[Arc]) -> list[Arc]:
 
 
 def _tagged(network: Network, runs: list[list[Arc]]) -> list[Line]:
-    """Lines with numbers made from what they join, so that a line added elsewhere renumbers nothing."""
+    """Lines with numbers made from what they join, so that a line added elsewhere renumbers nothing as a rule.
+
+    Of lines that come to the same number all but the first take the next free one, which such a line may change.
+    """
     keys = [_key(network, run) for run in runs]
     order = sorted(range(len(runs)), key=lambda i: (keys[i], _place_key(network, runs[i])))
     taken: set[int] = set()
@@ -186,7 +191,7 @@ def _place_key(network: Network, run: list[Arc]) -> str:
     for place in (run[0].start, run[-1].end):
         node = network.places[place]
         point = node.centroid if isinstance(node, Unit) else node.point
-        ends.append(",".join(f"{round(c / _GRID) + 0:+08d}" for c in point))
+        ends.append(",".join(f"{round((c + _OFF) / _GRID) + 0:+08d}" for c in point))
     return "|".join(sorted(ends))
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import reprlib
 from functools import cached_property
 
 from cadgraph.model.graph import SceneGraph
@@ -19,7 +20,9 @@ class Network(Pipework):
     """
 
     def __init__(self, graph: SceneGraph) -> None:
-        super().__init__(graph.places, graph.of_kind(Connected))
+        if not isinstance(graph, SceneGraph):
+            raise TypeError(f"give a SceneGraph, as cadgraph.build makes it, not {reprlib.repr(graph)}")
+        super().__init__(graph.nodes_but_parts, graph.of_kind(Connected))
         self.graph = graph
 
     def find(self, which: str) -> str:

@@ -130,6 +130,8 @@ def read_requests(rows: Sequence[Mapping[str, Any] | BaseModel]) -> list[EditReq
     Raises:
         ValueError: one is none; the message names it and the field.
     """
+    if not isinstance(rows, Sequence) or not all(isinstance(row, Mapping | BaseModel) for row in rows):
+        raise ValueError("give a list of corrections, each an object with its kind")
     plain = [row.model_dump() if isinstance(row, BaseModel) else dict(row) for row in rows]
     try:
         return _READER.validate_python(plain)

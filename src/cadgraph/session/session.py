@@ -28,7 +28,7 @@ from cadgraph.model.parts import Parts
 from cadgraph.model.records import Part
 from cadgraph.model.scene import Scene
 from cadgraph.model.vocabulary import Vocabulary, default_vocabulary
-from cadgraph.pipeline import analyse, as_read, contradicted, ground_as_said, interpret, lay_ground
+from cadgraph.pipeline import analyse, as_read, check_asked, contradicted, ground_as_said, interpret, lay_ground
 from cadgraph.session.requests import EditRequest, Requests, read_requests
 from cadgraph.session.told import tell_flow, tell_followers, tell_lines, tell_renamed, tell_units
 
@@ -127,7 +127,10 @@ class Session:
     ) -> Session:
         """Analyses a scene and asks a labeler about its parts; see ``cadgraph.build`` for arguments and errors."""
         config, tree = config or Config(), vocabulary or default_vocabulary()
+        if not isinstance(config, Config):
+            raise TypeError(f"a session takes a Config, not {type(config).__name__}")
         config = as_read(scene, config)
+        check_asked(tree, labeler, labels, corrections)
         history = History.of(corrections) if history is None else history
         analysis = lay_ground(analyse(scene, config, progress, crew), history.in_force, config)
         progress("label", 0)

@@ -139,7 +139,7 @@ TABLES: Mapping[str, Table] = {
             "kind": ("TEXT", "ground, platform, stairs or ladder"),
             "height": ("REAL", "of the walking surface, or of the top of a way up [m]"),
             "low": ("REAL", "height that a way up starts from [m]"),
-            "area": ("REAL", "free to walk on [m2]"),
+            "area": ("REAL", "to stand on, of what nothing else stands on [m2]; 0 for ways up"),
             "id": ("TEXT", "of the node in graph.json"),
         },
     ),

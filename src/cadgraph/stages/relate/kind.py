@@ -14,6 +14,7 @@ __all__ = ["name_kinds"]
 
 # A tank lies where it is longer than high and than deep by this factor.
 _LYING = 1.15
+_STEEP = 0.7  # a tank whose shell is longest along a steeper axis stands
 _GAUGES = ("level gauge", "flow meter", "transmitter", "sight glass", "thermowell")
 _GUESSES = 2  # that are told where a kind stays open ...
 _LEAST = 0.05  # ... if they are as likely as this
@@ -65,10 +66,17 @@ def _gauge(unit: UnitParts, names: Collection[str]) -> str:
 
 
 def _tank(unit: UnitParts, parts: Parts) -> str:
-    low = parts.properties.aabb[list(unit.parts), 0].min(axis=0)
-    wide, deep, high = parts.properties.aabb[list(unit.parts), 1].max(axis=0) - low
-    lies = max(wide, deep) > _LYING * high and max(wide, deep) > _LYING * min(wide, deep)
-    return "horizontal tank" if lies else "tank"
+    members, properties = list(unit.parts), parts.properties
+    shell = members[int(np.argmax(properties.obb_volume[members]))]
+    axis = properties.obb_axes[shell, 0]
+    if abs(axis[2]) > _STEEP:
+        return "tank"
+    # Along its shell and across it, whichever way it is turned about the vertical.
+    along = axis[:2] / np.linalg.norm(axis[:2])
+    frame = np.array([[along[0], along[1], 0.0], [-along[1], along[0], 0.0], [0.0, 0.0, 1.0]])
+    corners = np.concatenate([parts.scene.mesh(part)[0] @ frame.T for part in members])
+    long, wide, high = corners.max(axis=0) - corners.min(axis=0)
+    return "horizontal tank" if long > _LYING * high and long > _LYING * wide else "tank"
 
 
 def _has_crossed_nozzles(unit: UnitParts) -> bool:
