@@ -51,6 +51,35 @@ def arc(center, radius, start, turn, steps=16):
     return [(center[0] + radius * math.cos(a), center[1] + radius * math.sin(a), 0.0) for a in angles]
 
 
+def outlet_between_pipes():
+    """Two pipes meet end to end; over where they do an outlet is set, with a branch of one pipe."""
+    parts = [pipe_part(i, name) for i, name in enumerate(["pipe", "pipe", "branch outlet", "pipe"])]
+    at = (3.0, 0.0, 0.0)
+    joint = networks.junction(1, at).model_copy(update={"parts": ("part-0", "part-1", "part-2")})
+    joints = [
+        join("part-0", "part-1", at),
+        join("part-2", "part-0", at, "tap"),
+        join("part-2", "part-3", (3.0, 0.0, 0.1)),
+    ]
+    ends = [networks.terminal(k, "open", point) for k, point in enumerate([(0.0, 0, 0), (5.0, 0, 0), (3.0, 0, 1.1)], 1)]
+    edges = [
+        edge("X1", "J1", ["part-0"], [(0.0, 0.0, 0.0), at]),
+        edge("J1", "X2", ["part-1"], [at, (5.0, 0.0, 0.0)]),
+        edge("J1", "X3", ["part-2", "part-3"], [at, (3.0, 0.0, 0.1), (3.0, 0.0, 1.1)]),
+    ]
+    return networks.network([*parts, joint, *ends], edges, joints=joints)
+
+
+def test_an_outlet_where_two_pipes_meet_is_set_on_them_and_they_stay_pipes():
+    lines = find_components(outlet_between_pipes())
+    found = [component for line in lines for component in line.components]
+    lengths = {c.parts[0]: c.length for c in found if c.kind == "pipe"}
+    assert lengths == pytest.approx({"part-0": 3.0, "part-1": 2.0, "part-3": 1.0})
+    (outlet,) = [c for c in found if c.kind != "pipe"]
+    assert (outlet.kind, outlet.parts, outlet.centre) == ("branch outlet", ("part-2",), pytest.approx((3.0, 0.0, 0.0)))
+    assert outlet.branches[0].point == pytest.approx((3.0, 0.0, 0.1))
+
+
 def valve_line():
     """X1 - pipe - flange - gasket - V-001 - gasket - flange - pipe - elbow - pipe - blind flange - X2, DN 50."""
     names = ["pipe", "flange", "gasket", "gasket", "flange", "pipe", "elbow", "pipe", "blind flange"]

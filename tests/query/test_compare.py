@@ -302,7 +302,7 @@ def plant(tmp_path):
 def test_command_says_that_both_agree(plant, capsys):
     code, out, _ = run(capsys, "compare", plant, plant / "plan.xml", "--strict")
     assert code == 0
-    assert out.splitlines()[-1] == "the plant and the plan agree"
+    assert out.splitlines()[-1] == "the plant and the plan agree (nominal sizes are not compared)"
 
 
 def test_command_tells_each_difference_and_ends_with_one_only_when_strict(plant, capsys):
@@ -321,7 +321,38 @@ def test_command_answers_as_json_and_into_a_file(plant, capsys):
     assert (code, "agree" in out) == (0, True)
     assert json.loads((plant / "a.json").read_text(encoding="utf-8"))["agrees"] is True
     run(capsys, "compare", plant, plant / "plan.xml", "-o", plant / "a.txt")
-    assert (plant / "a.txt").read_text(encoding="utf-8").endswith("the plant and the plan agree\n")
+    assert (
+        (plant / "a.txt")
+        .read_text(encoding="utf-8")
+        .endswith("the plant and the plan agree (nominal sizes are not compared)\n")
+    )
+
+
+def branches(*kinds):
+    """Two equal branches with a valve each, tags as another tool counts."""
+    nodes = [unit("P-001"), junction(1), terminal(1), terminal(2)]
+    nodes += [unit(f"V-00{k}", kind) for k, kind in enumerate(kinds, 1)]
+    return network(nodes, chain("P-001 J1 V-001 X1") + chain("J1 V-002 X2"))
+
+
+@pytest.mark.parametrize(
+    ("drawn", "differs"),
+    [
+        (("ball valve", "gate valve"), ()),
+        ((None, "ball valve"), ()),
+        (("ball valve", "check valve"), ("V-001, V-002",)),
+    ],
+)
+def test_units_that_nobody_can_tell_apart_are_not_said_to_agree(tmp_path, capsys, drawn, differs):
+    plan = renamed(branches(*drawn), {"P-001": "P-7", "V-001": "HV-3", "V-002": "HV-9"})
+    found = compare(branches("gate valve", "ball valve"), plan)
+    if found.alike:
+        assert [", ".join(kind.where) for kind in found.kinds] == list(differs)
+        assert not found.complete
+        assert "2 of 3 units can't be told apart" in found.verdict or differs
+    branches("gate valve", "ball valve").save(tmp_path)
+    write_dexpi(plan, tmp_path / "plan.xml")
+    assert run(capsys, "compare", tmp_path, tmp_path / "plan.xml", "--strict")[0] == int(bool(differs or found.alike))
 
 
 def test_command_takes_pairs_of_tags(plant, capsys):

@@ -192,7 +192,9 @@ def compare(
     by_network: Annotated[
         bool, typer.Option("--by-network", help="Don't go by tags: the plan counts in a way of its own.")
     ] = False,
-    strict: Annotated[bool, typer.Option("--strict", help="End with 1 where anything differs.")] = False,
+    strict: Annotated[
+        bool, typer.Option("--strict", help="End with 1 where anything differs or can't be told apart.")
+    ] = False,
     as_json: JsonOption = False,
     output: Annotated[
         Path | None, typer.Option("--output", "-o", metavar="FILE", help="Write the answer there.")
@@ -226,9 +228,8 @@ def compare(
         given = read_mapping(read_text_within(mapping, MAPPING, ValueError, remedy), str(mapping))
     found = compare_graphs(SceneGraph.load(graph), read_dexpi(plan), given, by_tag=not by_network)
     lines = comparison_lines(found) if output is None else comparison_lines(found, most=10**9)
-    outcome = f"the plant and the plan {'agree' if found.agrees else 'differ'}"
-    _tell_comparison(lines, comparison_values(found), outcome, as_json, output)
-    if strict and not found.agrees:
+    _tell_comparison(lines, comparison_values(found), found.verdict, as_json, output)
+    if strict and not (found.agrees and found.complete):
         raise typer.Exit(1)
 
 

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import csv
 from collections import Counter
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+
+import numpy as np
 
 from cadgraph._io.text import tag_key
 from cadgraph.model.graph import SceneGraph
@@ -125,7 +127,7 @@ class Comparison:
         lines: tags of the plant's lines on which the units follow each other as in the plan.
         orders: lines on which they don't.
         directions: where the flow goes the other way.
-        kinds: units of another kind.
+        kinds: units of another kind; of units that nobody can tell apart all together, where no way to pair them fits.
         told: what was skipped when the plan was read.
     """
 
@@ -149,6 +151,25 @@ class Comparison:
             self.only_plant, self.only_plan, self.extra, self.missing, self.orders, self.directions, self.kinds,
         )  # fmt: skip
         return not any(differing)
+
+    @property
+    def complete(self) -> bool:
+        """Whether all units were compared; those of which nobody can say which is which were not, but for kinds."""
+        return not self.alike
+
+    @property
+    def verdict(self) -> str:
+        """What came of it, in a sentence."""
+        if not self.agrees:
+            return "the plant and the plan differ"
+        if self.complete:
+            return "the plant and the plan agree (nominal sizes are not compared)"
+        open_ones = sum(len(plant) for plant, _ in self.alike)
+        of = len(self.found) + open_ones + len(self.only_plant)
+        return (
+            f"the plant and the plan agree as far as they were compared: {open_ones} of {of} units can't be told apart "
+            "from others, and neither they nor what joins them was; --map FILE says which is which"
+        )
 
 
 def compare(
@@ -192,7 +213,7 @@ def compare(
         lines=same,
         orders=orders,
         directions=_directions(names, regions),
-        kinds=_kinds(networks, matching.pairs),
+        kinds=(*_kinds(networks, matching.pairs), *_kinds_of_alike(networks, matching.alike)),
         skipped=tuple(finding.message for finding in plan.diagnostics),
     )
 
@@ -372,8 +393,36 @@ def _kinds(networks: tuple[Network, Network], pairs: Iterable[Match]) -> tuple[D
         built, planned = (network.places[name] for network, name in zip(networks, names, strict=True))
         if not isinstance(built, Unit) or not isinstance(planned, Unit):
             continue
-        words = kind_words(built.kind), kind_words(planned.kind)
-        if built.unit_type != planned.unit_type or (all(words) and not words[0] & words[1]):
+        if _contradict(built, planned):
             what = (network.what(name) for network, name in zip(networks, names, strict=True))
             found.append(Difference((built.tag,), *what))
     return tuple(found)
+
+
+def _contradict(built: Unit, planned: Unit) -> bool:
+    """Whether two units can't be one: of two types, or of kinds that exclude each other."""
+    words = kind_words(built.kind), kind_words(planned.kind)
+    return built.unit_type != planned.unit_type or (all(words) and not words[0] & words[1])
+
+
+def _kinds_of_alike(
+    networks: tuple[Network, Network], alike: Iterable[tuple[tuple[str, ...], tuple[str, ...]]]
+) -> Iterator[Difference]:
+    """Groups of units that nobody can tell apart, where their kinds contradict however they are paired."""
+    from scipy.optimize import linear_sum_assignment
+
+    for group in alike:
+        built, planned = (
+            [node for name in names if isinstance(node := network.places[name], Unit)]
+            for network, names in zip(networks, group, strict=True)
+        )
+        against = np.array([[_contradict(a, b) for b in planned] for a in built], float)
+        rows, columns = linear_sum_assignment(against)
+        if against[rows, columns].any():
+            what = (_counted(network, names) for network, names in zip(networks, group, strict=True))
+            yield Difference(tuple(networks[0].name(name) for name in group[0]), *what)
+
+
+def _counted(network: Network, names: Iterable[str]) -> str:
+    counts = Counter(network.what(name) for name in names)
+    return ", ".join(f"{n} {what}" for what, n in sorted(counts.items()))

@@ -20,7 +20,8 @@ from cadgraph.query.polyline import Polyline, angle, apex, dot, minus, times, un
 
 __all__ = ["find_components"]
 
-_FITTINGS = ("tee", "cross", "branch outlet")
+_OUTLET = "branch outlet"
+_FITTINGS = ("tee", "cross", _OUTLET)
 _NEAR = 5e-3  # m; ours: a tap and what sits on it have one axis
 _PIPE = 0.05  # m; ours: a diameter where none is known, to tell bends from straights
 _LEAST = 1e-4  # m; ours: a shorter piece is none, a gasket is some millimetres
@@ -244,7 +245,7 @@ class _Plant:
         item = run.items[-1 if last else 0]
         if item.place is not None:
             return item.place == place and (not self.network.is_valve(place) or self._owner(place) is not run)
-        if run.hosted[last]:
+        if run.hosted[last] or self._is_outlet(run, last):
             return True
         return self._stands_at(run, last) and self._is_fitting(place) and self._owner(place) is not run
 
@@ -255,11 +256,28 @@ class _Plant:
 
     def _is_fitting(self, place: str) -> bool:
         """Whether the lines at a junction meet in a fitting, not on the side of a pipe."""
-        return not any(run.hosted[last] for run, last in self.meets[place] if run.bounds)
+        return not any(run.hosted[last] or self._is_outlet(run, last) for run, last in self.meets[place] if run.bounds)
+
+    def _is_outlet(self, run: _Run, last: bool) -> bool:
+        """Whether a line begins with a branch outlet that is set on the pipes of the others at a junction."""
+        place = run.line.end if last else run.line.start
+        if not run.items or not self._stands_at(run, last) or self._name(run.items[-1 if last else 0]) != _OUTLET:
+            return False
+        others = [
+            (other, end) for other, end in self.meets[place] if other.items and not (other is run and end == last)
+        ]
+        return bool(others) and all(
+            self._stands_at(other, end) and self._name(other.items[-1 if end else 0]) not in _FITTINGS
+            for other, end in others
+        )
 
     def _owner(self, place: str) -> _Run | None:
         """The line that a fitting or a valve of several lines belongs to."""
-        runs = [run for run, last in self.meets[place] if run.bounds and not run.hosted[last]]
+        runs = [
+            run
+            for run, last in self.meets[place]
+            if run.bounds and not run.hosted[last] and not self._is_outlet(run, last)
+        ]
         return min(runs, key=lambda run: (-max(run.line.sizes, default=0), run.line.tag), default=None)
 
     def _pieces(self, run: _Run, i: int) -> Iterator[Component]:
@@ -338,8 +356,10 @@ class _Plant:
         """Where the first item of a line that belongs to another one ends, with its size."""
         item, station = (run.items[-1], run.bounds[-2]) if last else (run.items[0], run.bounds[1])
         side = 0 if last else 1
-        if item.place is None and not run.hosted[last] and not self._stands_at(run, last):
-            # The graph has nothing of the junction: the lines meet in its point.
+        place = run.line.end if last else run.line.start
+        own = run.hosted[last] or self._is_outlet(run, last)
+        if item.place is None and not own and not (self._stands_at(run, last) and self._is_fitting(place)):
+            # The graph has nothing of the junction, or only what is set on there: the lines meet in its point.
             station, side = (run.centreline.length, 1) if last else (0.0, 0)
         return run.centreline.at(station), item.sizes[side], item.diameters[side]
 
@@ -420,18 +440,18 @@ class _Plant:
         side = 1 if last else 0
         return [
             Component(
-                kind="tap",
-                what=None,
+                kind=_OUTLET if self._is_outlet(other, end) else "tap",
+                what=_OUTLET if self._is_outlet(other, end) else None,
                 start=point,
                 end=point,
                 centre=point,
                 branches=(Branch(*self._meeting(other, end), line=other.line.tag, goes_on=True),),
                 sizes=(item.sizes[side], item.sizes[side]),
                 diameters=(item.diameters[side], item.diameters[side]),
-                parts=item.parts,
+                parts=other.items[-1 if end else 0].parts if self._is_outlet(other, end) else item.parts,
             )
             for other, end in self.meets[place]
-            if other.bounds and other.hosted[end]
+            if other.bounds and (other.hosted[end] or self._is_outlet(other, end))
         ]
 
     def _pipes(self, run: _Run, i: int, base: Component, name: str | None) -> Iterator[Component]:

@@ -315,10 +315,13 @@ def comparison_lines(found: Comparison, *, most: int = 20) -> list[str]:
         f"directions     {len(found.directions)} contradict",
         *_listed([_way(way.at, way.to, way.plant, way.plan) for way in found.directions], most),
         f"kinds          {len(found.kinds)} differ",
-        *_listed(aligned([(*k.where, f"{k.plant} in the plant,", f"{k.plan} in the plan") for k in found.kinds]), most),
+        *_listed(
+            aligned([(", ".join(k.where), f"{k.plant} in the plant,", f"{k.plan} in the plan") for k in found.kinds]),
+            most,
+        ),
         *(f"note: {remark}" for remark in found.skipped),
         "",
-        "the plant and the plan agree" if found.agrees else "the plant and the plan differ",
+        found.verdict,
     ]
 
 
@@ -362,6 +365,8 @@ def comparison_values(found: Comparison) -> dict[str, Any]:
     """A comparison as plain values; tags are those of the plant unless the key says otherwise."""
     return {
         "agrees": found.agrees,
+        "complete": found.complete,
+        "verdict": found.verdict,
         "units": [{**dataclasses.asdict(unit), "sure": round(unit.sure, 6)} for unit in found.found],
         "only_in_plant": [dataclasses.asdict(unit) for unit in found.only_plant],
         "only_in_plan": [dataclasses.asdict(unit) for unit in found.only_plan],
@@ -409,7 +414,8 @@ def _around(unit: Missing) -> str:
 
 
 def _way(at: str, to: Sequence[str], plant: str, plan: str) -> str:
-    words = {"out": f"from {at} to {', '.join(to)}", "in": f"from {', '.join(to)} to {at}"}
+    others = ", ".join(to) or "an end"
+    words = {"out": f"from {at} to {others}", "in": f"from {others} to {at}"}
     return f"{words[plant]} in the plant, {words[plan]} in the plan"
 
 
