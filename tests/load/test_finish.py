@@ -258,3 +258,24 @@ def test_a_void_stays_with_its_solid_however_the_file_faces():
 def test_nothing_is_done_to_an_empty_scene():
     empty = scene_of([])
     assert finish(empty, LoadConfig(), FILE) is empty
+
+
+def test_millimetres_of_a_national_grid_are_not_too_far(tmp_path):
+    file = tmp_path / "far.obj"
+    points = [(5e8, 5.4e9, 0), (5e8 + 100, 5.4e9, 0), (5e8, 5.4e9 + 100, 0), (5e8, 5.4e9, 100)]
+    text = (
+        "o valve\n"
+        + "".join(f"v {x:.1f} {y:.1f} {z:.1f}\n" for x, y, z in points)
+        + "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n"
+    )
+    file.write_text(text)
+    scene = load(file, LoadConfig(isolate=False, unit="mm"))
+    assert np.linalg.norm(scene.origin) == pytest.approx(5.42e6, rel=1e-2)
+    assert {note.code for note in scene.diagnostics} == {"missing-up-axis"}
+    with pytest.raises(LoadError, match="all of it lies farther out than a million kilometres, one unit being 1 m"):
+        load(file, LoadConfig(isolate=False, unit="m"))
+    near = "".join(f"v {x} {y} {z}\n" for x, y, z in [(0, 0, 0), (100, 0, 0), (0, 100, 0), (0, 0, 100)])
+    file.write_text(f"{text}o other\n{near}f 5 7 6\nf 5 6 8\nf 6 7 8\nf 5 8 7\n")
+    scene = load(file, LoadConfig(isolate=False, unit="m"))
+    assert scene.paths == ("/other",)
+    assert "too-far" in {note.code for note in scene.diagnostics}

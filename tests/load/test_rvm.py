@@ -10,6 +10,7 @@ import pytest
 from cadgraph.config import LoadConfig
 from cadgraph.errors import LoadError
 from cadgraph.load import load
+from cadgraph.load.losses import LOST_GEOMETRY
 from rvm_files import SIZES, Rvm, cube, placed, turned
 
 IN_PROCESS = LoadConfig(isolate=False)
@@ -245,6 +246,13 @@ def test_a_tag_is_the_name_of_a_plant_item(tmp_path):
     assert [(f.path, f.value) for f in facts if f.key == "tag"] == [("/AREA/P-101", "P-101")]
 
 
+def test_attributes_of_another_model_and_files_that_are_none_are_told(tmp_path):
+    (tmp_path / "a.att").write_text(ATT.replace("/", "/X"), encoding="utf-8")
+    assert "attributes-of-another" in codes(read(tmp_path, branch().bytes))
+    (tmp_path / "a.att").write_text("", encoding="utf-8")
+    assert codes(read(tmp_path, branch().bytes)) == {"attributes-unread"}
+
+
 def test_a_text_that_is_no_attribute_file_is_left_alone(tmp_path):
     (tmp_path / "a.txt").write_text("Type:= VALV", encoding="utf-8")
     assert all(fact.where != "att TYPE" for fact in read(tmp_path, branch().bytes).facts)
@@ -326,6 +334,8 @@ def test_lines_flat_solids_frames_and_welds_are_left_out_with_a_note(tmp_path):
     assert codes(scene) == {"left-out-lines", "flat-primitive", "left-out-type"}
     (note,) = (note for note in scene.diagnostics if note.code == "left-out-type")
     assert note.meshes == ("/B/DRAWING_1", "/B/WELD_1")
+    # Nothing of the plant is lost with them.
+    assert "left-out-type" not in LOST_GEOMETRY
 
 
 @pytest.mark.parametrize("kind", sorted(SIZES.keys() - {10}))

@@ -36,6 +36,14 @@ def test_what_a_damaged_file_lacks_is_said_aloud(code):
     assert "a half is missing" in "\n".join(summary_lines(summarize(SceneGraph(lacking))))
 
 
+def test_notes_whose_paths_were_cut_short_count_all_of_them():
+    note = Diagnostic(
+        "control-cage", "subdivision surfaces are loaded as their control cage (1,548 in all)", ("/a", "/b")
+    )
+    found = summarize(graphs.graph([], diagnostics=(note, Diagnostic("hidden", "left out", ("/c",)))))
+    assert found.diagnostics == {"control-cage": 1548, "hidden": 1}
+
+
 def test_ends_are_told_by_kind():
     nodes = [unit("P-001"), terminal(1), terminal(2, "blind"), terminal(3)]
     assert end_words(summarize(network(nodes, chain("X1 P-001 X2") + chain("P-001 X3")))) == "3: 2 open, 1 blind"

@@ -13,7 +13,7 @@ import numpy as np
 
 from cadgraph.errors import LoadError
 from cadgraph.load.naming import Names
-from cadgraph.load.packing import Z_UP_FROM
+from cadgraph.load.packing import TOO_FAR, TOO_FAR_TOLD, Z_UP_FROM, odd_size
 from cadgraph.load.units import METRES, UnitEvidence, bounds_of, distinct, pipe_diameters, weigh_units
 from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.scene import Faces, Floats, Ints, MeshArrays, Scene
@@ -58,7 +58,25 @@ def finish(scene: Scene, config: LoadConfig, path: Path) -> Scene:
         return scene
     if config.split:
         scene = _split(scene, config.unit)
-    return _with_up(_with_unit(scene, config, path), config)
+    stated = scene.source.unit_stated
+    scene = _with_unit(scene, config, path)
+    return _with_up(scene if stated else _of_usual_size(scene, path), config)
+
+
+def _of_usual_size(scene: Scene, path: Path) -> Scene:
+    """A scene whose metres are known only now, without what lies too far out; an odd size is told."""
+    far = [i for i in range(scene.n_meshes) if np.abs(scene.mesh(i)[0] + scene.origin).max() > TOO_FAR]
+    if far:
+        if len(far) == scene.n_meshes:
+            raise LoadError(
+                f"{path}: all of it lies farther out than a million kilometres, one unit being "
+                f"{scene.source.meters_per_unit:g} m; say the unit with --unit mm (or m, cm, in, ft)"
+            )
+        note = Diagnostic("too-far", TOO_FAR_TOLD, tuple(scene.paths[i] for i in far))
+        scene = _noted(scene.select(np.setdiff1d(np.arange(scene.n_meshes), far)), note)
+    low, high = bounds_of(scene)
+    told = odd_size(float((high - low).max()), scene.source)
+    return _noted(scene, Diagnostic("unusual-size", told)) if told else scene
 
 
 def _split(scene: Scene, unit: str | None) -> Scene:

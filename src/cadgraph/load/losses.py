@@ -10,16 +10,16 @@ __all__ = ["LOST_GEOMETRY", "refuse_losses"]
 LOST_GEOMETRY = frozenset({
     "broken-chunk", "broken-element", "broken-facet", "broken-mesh", "broken-node", "broken-object", "broken-primitive",
     "cut-short", "damaged-entity", "damaged-source", "empty-mesh", "invalid-face-counts",
-    "invalid-indices", "invalid-instancer", "invalid-points", "invalid-size", "invalid-transform", "left-out-type",
-    "missing-layer", "missing-object", "missing-payload", "missing-prototype", "missing-reference", "not-built",
+    "invalid-indices", "invalid-instancer", "invalid-points", "invalid-size", "invalid-transform",
+    "missing-layer", "missing-object", "missing-payload", "missing-prototype", "missing-reference",
     "outside-asset", "projective-transform", "too-deep", "too-far",
     "trailing-bytes", "unbalanced-tree", "unknown-chunk",
     "unreadable", "unsupported-geometry",
 })  # fmt: skip
 """Codes of notes by which something that a file draws, or refers to, is not in the scene as it is drawn.
 
-What is left out by a setting (hidden meshes, other purposes, lines, volumes of insulation) is not lost, nor is a mesh
-without any area.
+What is left out by a setting (hidden meshes, other purposes, lines, volumes of insulation) is not lost, nor is what is
+nothing that is built (the volumes of rooms, drawn frames, marks of welds), nor a mesh without any area.
 """
 
 _MOST_TOLD = 3

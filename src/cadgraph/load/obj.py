@@ -114,7 +114,8 @@ def read(path: Path, config: LoadConfig) -> Scene:
     kept = facts if config.metadata != "off" else []
     scene = pack(pieces, source, np.eye(4), notes, _ABRIDGED, kept)
     if not scene.n_meshes:
-        raise LoadError(f"{path}: none of its {len(counts):,} faces can be used; export it again")
+        why = "; ".join(note.message for note in scene.diagnostics)
+        raise LoadError(f"{path}: none of its {len(counts):,} faces can be used ({why}); export it again")
     return scene
 
 

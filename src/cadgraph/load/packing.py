@@ -24,9 +24,10 @@ Z_UP_FROM = {
 """Cyclic swaps, for row vectors: what pointed along the up axis points along Z, and no handedness changes."""
 
 _FAR = 10_000.0  # [m] beyond this a scene gets an origin of its own; ours: float32 renders still resolve 1 mm
-_TOO_FAR_TOLD = "left out: it reaches farther than a million kilometres; check its points and the file's units"
+TOO_FAR_TOLD = "left out: it reaches farther than a million kilometres; check its points and the file's units"
+_UNSTATED = 1000.0  # millimetres are the smallest unit that a plant is drawn in without saying so
 _ORIGIN_STEP = 100.0  # [m] origins are whole multiples, so that they are exact and stable under small edits
-_TOO_FAR = 1e9  # [m] ours: there float64 still resolves a micrometre; the Moon is at 4e8
+TOO_FAR = 1e9  # [m] ours: there float64 still resolves a micrometre; the Moon is at 4e8
 _SIZES = (1e-3, 1e5)  # [m] ours: no plant is smaller than a millimetre or larger than 100 km
 _RIGID = 2e-6  # shapes are shared by placements that turn as truly as this; ours: float32 frames do
 _STRAIGHT = 1e-9  # how exactly the last column of a placement is 0, 0, 0, 1
@@ -192,11 +193,14 @@ def pack_placed(
     order = np.array(natural_order(paths), np.int64)
     with np.errstate(over="ignore", invalid="ignore"):
         world = _affine(matrices, paths, notes)[order] @ world_from_source
-        placed = _Placed.of(shapes, shape_of_mesh[order], world)
+        # Where the file states no unit these are no metres yet: what lies too far is told when they are.
+        far = TOO_FAR if source.unit_stated else TOO_FAR * _UNSTATED
+        placed = _Placed.of(shapes, shape_of_mesh[order], world, far)
         low, high = placed.bounds()
         kept = placed.kept([paths[i] for i in order.tolist()], low, high, notes)
     order, placed = order[kept], placed.select(kept)
-    _note_size(low[kept], high[kept], source, notes)
+    if source.unit_stated:
+        _note_size(low[kept], high[kept], source, notes)
     names = Names()
     unique = tuple(names.take(paths[i]) for i in order.tolist())
     given = tuple((anchors[i] if anchors else "") or path for i, path in zip(order.tolist(), unique, strict=True))
@@ -243,6 +247,7 @@ class _Placed:
         turn: ``(n, 3, 3)`` of each mesh, for row vectors; with scale, maybe mirrored or not finite.
         shift: ``(n, 3)`` [m], relative to the origin.
         origin: ``(3,)`` [m].
+        far: how far out something may reach [m].
     """
 
     shapes: Sequence[tuple[npt.NDArray[np.floating], Faces]]
@@ -250,14 +255,17 @@ class _Placed:
     turn: Floats
     shift: Floats
     origin: Floats
+    far: float
 
     @classmethod
-    def of(cls, shapes: Sequence[tuple[npt.NDArray[np.floating], Faces]], shape: Ints, matrices: Floats) -> _Placed:
+    def of(
+        cls, shapes: Sequence[tuple[npt.NDArray[np.floating], Faces]], shape: Ints, matrices: Floats, far: float
+    ) -> _Placed:
         turn, shift = np.ascontiguousarray(matrices[:, :3, :3]), matrices[:, 3, :3]
         # A corner of each shape tells where it is.
         corners = np.array([points[faces[0, 0]] for points, faces in shapes], np.float64).reshape(-1, 3)
-        origin = _origin(np.einsum("ij,ijk->ik", corners[shape], turn) + shift)
-        return cls(shapes, shape, turn, shift - origin, origin)
+        origin = _origin(np.einsum("ij,ijk->ik", corners[shape], turn) + shift, far)
+        return cls(shapes, shape, turn, shift - origin, origin, far)
 
     def select(self, kept: Ints) -> _Placed:
         return replace(self, shape=self.shape[kept], turn=self.turn[kept], shift=self.shift[kept])
@@ -278,7 +286,7 @@ class _Placed:
         """The meshes that can be placed, by their bounds; the others are noted."""
         finite = np.asarray(np.isfinite(self.turn).all(axis=(1, 2)) & np.isfinite(self.shift).all(axis=1))
         # Written so that NaN fails it too.
-        limit = _TOO_FAR - float(np.abs(self.origin).max())
+        limit = self.far - float(np.abs(self.origin).max())
         sure = np.asarray((high <= limit).all(axis=1) & (low >= -limit).all(axis=1))
         solid = self._have_area()
         kept = []
@@ -290,7 +298,7 @@ class _Placed:
             if not (finite[i] and np.isfinite(placed.sum())):
                 notes.add("invalid-transform", "left out: its placement is not finite", path)
             elif not (placed.max() <= limit and placed.min() >= -limit):
-                notes.add("too-far", _TOO_FAR_TOLD, path)
+                notes.add("too-far", TOO_FAR_TOLD, path)
             elif not _have_area(placed, self.shapes[self.shape[i]][1]).any():
                 notes.add("degenerate-mesh", "left out: all its faces have zero area", path)
             else:
@@ -341,12 +349,23 @@ class _Placed:
 
 
 def _note_size(low: Floats, high: Floats, source: Source, notes: Notes) -> None:
-    if not len(low):
-        return
-    size = float((high.max(axis=0) - low.min(axis=0)).max())
-    if not _SIZES[0] <= size <= _SIZES[1]:
-        unit = f"check its units (one is taken as {source.meters_per_unit:g} m)"
-        notes.add("unusual-size", f"the scene is {size:.3g} m across, which no plant is; {unit}")
+    if len(low):
+        told = odd_size(float((high.max(axis=0) - low.min(axis=0)).max()), source)
+        if told:
+            notes.add("unusual-size", told)
+
+
+def odd_size(size: float, source: Source) -> str:
+    """What is said of a scene that no plant is as large, or as small, as; empty of others.
+
+    Args:
+        size: across [m].
+        source: with its unit.
+    """
+    if _SIZES[0] <= size <= _SIZES[1]:
+        return ""
+    unit = f"check its units (one is taken as {source.meters_per_unit:g} m)"
+    return f"the scene is {size:.3g} m across, which no plant is; {unit}"
 
 
 def _have_area(points: Floats, faces: Faces | Ints) -> npt.NDArray[np.bool_]:
@@ -357,13 +376,14 @@ def _have_area(points: Floats, faces: Faces | Ints) -> npt.NDArray[np.bool_]:
     return area
 
 
-def _origin(first: Floats) -> Floats:
+def _origin(first: Floats, far: float) -> Floats:
     """A whole multiple of 100 m amid the pieces where these lie far out, else zero.
 
     Args:
         first: ``(n, 3)`` a corner of each piece [m].
+        far: what lies farther out doesn't count [m].
     """
-    first = first[(np.abs(first) <= _TOO_FAR).all(axis=1)]
+    first = first[(np.abs(first) <= far).all(axis=1)]
     if not len(first):
         return np.zeros(3)
     # The median: one stray mesh must not drag the origin away from all others.

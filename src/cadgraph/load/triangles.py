@@ -14,7 +14,7 @@ __all__ = ["MAX_TRIANGLES", "clean_triangles", "linear", "main_color"]
 MAX_TRIANGLES = 200_000_000
 """So many are placed at most, from whatever few bytes: about 20 GB. Ours; large plants have a tenth of that."""
 
-_STRAY = 1e9  # a few points farther out than this, in the file's unit, are damage: a plant in micrometres is smaller
+_STRAY = 1e11  # a few points farther out than this, in the file's unit, are damage: national grids reach 6e9 mm
 _FEW = 0.05  # so many of a mesh at most; where more are, the file means it
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -15,12 +16,15 @@ from cadgraph.query.network import Network
 
 __all__ = ["Summary", "connection_between", "connection_words", "end_words", "share_words", "summarize"]
 
+# What a note says whose paths were cut short.
+_IN_ALL = re.compile(r"\(([\d,]+) in all\)$")
 _GRAVE = frozenset({
     "broken-chunk", "broken-element", "broken-mesh", "broken-node", "broken-object", "broken-primitive", "cut-short",
     "damaged-entity", "trailing-bytes", "unbalanced-tree", "unreadable",
     "damaged-source", "invalid-units", "invalid-up-axis", "missing-layer", "missing-payload", "missing-reference",
     "mixed-units", "mixed-up-axis", "outside-asset", "unit-doubt", "missing-up-axis",
     "unusual-size", "vocabulary-unknown-to-model",
+    "attributes-unread", "attributes-damaged", "attributes-of-another", "invalid-face-counts", "too-far",
 })  # fmt: skip
 """Codes of findings that are said aloud: something is missing, or with the wrong scale or vocabulary hardly any label
 can be right.
@@ -94,7 +98,8 @@ def summarize(graph: SceneGraph) -> Summary:
         units.setdefault(unit.unit_type, []).append(unit.tag)
     findings: Counter[str] = Counter()
     for finding in graph.diagnostics:
-        findings[finding.code] += max(1, len(finding.meshes))
+        whole = _IN_ALL.search(finding.message)
+        findings[finding.code] += int(whole[1].replace(",", "")) if whole else max(1, len(finding.meshes))
     return Summary(
         source=graph.source.path,
         n_meshes=graph.source.n_meshes,

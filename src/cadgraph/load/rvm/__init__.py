@@ -7,10 +7,10 @@ called by its type and number (``VALVE_1``), a primitive ``primitive_3``, the th
 Every primitive is cut by itself and closed at all its ends. Viewers leave out the caps between neighbours and turn
 rings to match, which is right for drawing, but opens the solids.
 
-Notes in ``Scene.diagnostics``: ``attributes-damaged``, ``attributes-unread``, ``broken-chunk``, ``broken-link``,
-``broken-node``, ``broken-primitive``, ``coarsened``, ``cut-short``, ``degenerate-mesh``, ``empty-mesh``,
-``encoding-guessed``, ``flat-primitive``, ``invalid-transform``, ``left-out-lines``, ``left-out-type``,
-``left-out-volume``, ``too-far``, ``unbalanced-tree``, ``unknown-chunk``.
+Notes in ``Scene.diagnostics``: ``attributes-damaged``, ``attributes-of-another``, ``attributes-unread``,
+``broken-chunk``, ``broken-link``, ``broken-node``, ``broken-primitive``, ``coarsened``, ``cut-short``,
+``degenerate-mesh``, ``empty-mesh``, ``encoding-guessed``, ``flat-primitive``, ``invalid-transform``,
+``left-out-lines``, ``left-out-type``, ``left-out-volume``, ``too-far``, ``unbalanced-tree``, ``unknown-chunk``.
 """
 
 from __future__ import annotations
@@ -79,8 +79,13 @@ def read(path: Path, config: LoadConfig) -> Scene:
     facts: list[Fact] = []
     links: tuple[StatedLink, ...] = ()
     if config.metadata == "keep":
-        beside = find_attributes(path)
+        beside = find_attributes(path, notes)
         told = read_attributes(beside, notes) if beside else {}
+        if beside and told and told.keys().isdisjoint(tree.names):
+            notes.add(
+                "attributes-of-another",
+                f"none of the {len(told):,} elements of {beside.name} is in the model: it belongs to another",
+            )
         owner = Owner(tree, paths, node, primitives.chunk[meshes.first], meshes.whole.tolist(), told)
         facts, links = list(find_facts(owner)), find_links(owner)
     scene = pack_placed(

@@ -31,12 +31,22 @@ _MOST_BYTES = 4 << 30  # ours: a site of two million elements has 2 GB
 _MOST_KEPT = 5_000_000  # elements
 
 
-def find_attributes(path: Path) -> Path | None:
-    """The attribute file beside a model: the same name with .att, .ATT or .txt."""
+def find_attributes(path: Path, notes: Notes | None = None) -> Path | None:
+    """The attribute file beside a model: the same name with .att, .ATT or .txt.
+
+    Args:
+        path: of the model.
+        notes: gets what is called so and is none.
+    """
     for suffix in (".att", ".ATT", ".Att", ".txt", ".TXT"):
         beside = path.with_suffix(suffix)
-        if beside != path and beside.is_file() and _starts_right(beside):
+        if beside == path or not beside.is_file():
+            continue
+        if _starts_right(beside):
             return beside
+        if notes is not None and suffix.casefold() == ".att":
+            notes.add("attributes-unread", f"{beside.name} is no attribute file (it begins with no header); not read")
+            break
     return None
 
 
