@@ -89,3 +89,9 @@ def test_another_up_axis_is_told_unless_it_is_turned(tmp_path):
     assert "up is Y in valve.usda, Z in site.usda" in note.message
     (tmp_path / "turned").mkdir()
     assert not noted(site(tmp_path / "turned", 1.0, 1.0, asset_up="Y", turn=90.0), "mixed-up-axis")
+
+
+@pytest.mark.parametrize("more", [{"turn": -90.0}, {"scale": 2.0}])
+def test_a_turn_or_a_scale_between_layers_that_agree_is_the_scenes_own(tmp_path, more):
+    scene = site(tmp_path, 0.01, 0.01, up="Y", asset_up="Y", **more)
+    assert noted(scene, "mixed-up-axis") == noted(scene, "mixed-units") == []

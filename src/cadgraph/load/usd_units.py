@@ -50,7 +50,8 @@ def _note_layer(layer: Any, by: Any, way: str, prim: Any, notes: Notes) -> None:
     own, others = _unit_of(layer), _unit_of(by)
     path = str(prim.GetPath()) if prim is not None else None
     scale, up = _made_up_for(prim) if prim is not None else (1.0, None)
-    if own and others and abs(own / others / scale - 1) > _SAME:
+    # Of two that agree a scale or a turn is the scene's own.
+    if own and others and abs(own / others - 1) > _SAME and abs(own / others / scale - 1) > _SAME:
         notes.add(
             "mixed-units",
             f"{_name(layer)} is in units of {own:g} m, {_name(by)}, of which it is a {way}, in units of {others:g} m, "
@@ -58,7 +59,7 @@ def _note_layer(layer: Any, by: Any, way: str, prim: Any, notes: Notes) -> None:
             path,
         )
     own_axis, others_axis = _axis_of(layer), _axis_of(by)
-    if own_axis in _AXES and others_axis in _AXES:
+    if own_axis in _AXES and others_axis in _AXES and own_axis != others_axis:
         turned = np.array(_AXES[own_axis]) if up is None else np.array(_AXES[own_axis]) @ up
         if turned @ np.array(_AXES[others_axis]) < 1 - _SAME:
             notes.add(
