@@ -355,6 +355,12 @@ def test_units_that_nobody_can_tell_apart_are_not_said_to_agree(tmp_path, capsys
     assert run(capsys, "compare", tmp_path, tmp_path / "plan.xml", "--strict")[0] == int(bool(differs or found.alike))
 
 
+def test_a_plan_with_a_namespace_is_read_too(plant, capsys):
+    text = (plant / "plan.xml").read_text(encoding="utf-8").replace("<PlantModel", '<PlantModel xmlns="urn:proteus"', 1)
+    (plant / "named.xml").write_text(text, encoding="utf-8")
+    assert run(capsys, "compare", plant, plant / "named.xml", "--strict")[0] == 0
+
+
 def test_command_takes_pairs_of_tags(plant, capsys):
     (plant / "tags.csv").write_text("plan,plant\nHV-8,V-008\n", encoding="utf-8")
     out = run(capsys, "compare", plant, plant / "other.xml", "--map", plant / "tags.csv")[1]

@@ -89,8 +89,14 @@ def _parsed(path: Path) -> ET.Element:
         root = ET.fromstring(data)
     except (expat.ExpatError, ET.ParseError, ValueError, LookupError) as error:
         raise FormatError(f"{path}: not XML ({error})") from error
+    # Some tools give all elements a namespace, each its own.
+    for element in root.iter():
+        element.tag = element.tag.rpartition("}")[2]
     if root.tag != "PlantModel":
-        raise FormatError(f"{path}: not Proteus XML (the root is {root.tag!r}, not 'PlantModel')")
+        raise FormatError(
+            f"{path}: not Proteus XML (the root is {root.tag!r:.60}, not 'PlantModel'); export the P&ID as Proteus XML 4 "
+            "or DEXPI 1.3"
+        )
     return root
 
 
