@@ -94,8 +94,8 @@ def _parsed(path: Path) -> ET.Element:
         element.tag = element.tag.rpartition("}")[2]
     if root.tag != "PlantModel":
         raise FormatError(
-            f"{path}: not Proteus XML (the root is {root.tag!r:.60}, not 'PlantModel'); export the P&ID as Proteus XML 4 "
-            "or DEXPI 1.3"
+            f"{path}: not Proteus XML (the root is {root.tag!r:.60}, not 'PlantModel'); export the P&ID as Proteus XML "
+            "4 or DEXPI 1.3"
         )
     return root
 
