@@ -159,6 +159,7 @@ def test_a_device_that_labels_missed_is_not_found_again_where_it_was_cut_off():
         ({"kind": "direction", "source": "V-001", "target": "T-001"}, "nothing connects"),
         ({"kind": "tag", "unit": "V-001", "tag": "V-001"}, "is called so already"),
         ({"kind": "tag", "unit": "V-001", "tag": "t 001"}, "another unit is called T-001"),
+        ({"kind": "join", "first": "part-00000", "second": "V-001"}, "V-001 is a unit, and parts join: name that one"),
         ({"kind": "tag", "unit": "V-001", "tag": " "}, "at least one letter"),
         ({"kind": "tag", "unit": "V-001", "tag": "x" * 65}, "at most 64"),
         ({"kind": "tag", "unit": "V-001", "tag": "a\nb"}, "can't be printed"),

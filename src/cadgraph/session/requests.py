@@ -310,6 +310,10 @@ class Requests:
         return frozenset((first.id, second.id)) in self._made
 
     def _pair(self, request: JointRequest) -> tuple[Part, Part]:
+        for which in (request.first, request.second):
+            node = self.graph.nodes.get(which) or next((u for u in self.graph.units() if u.tag == which), None)
+            if isinstance(node, Unit):
+                raise ValueError(f"{which} is a unit, and parts join: name that one of its own, {_listed(node.parts)}")
         first, second = self.graph.part(request.first), self.graph.part(request.second)
         if first.id == second.id:
             raise ValueError(f"{first.id}: a part is not joined with itself")
