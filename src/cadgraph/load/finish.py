@@ -30,6 +30,7 @@ _FEW_MESHES = 50  # of a scene that may have one mesh for each material
 _PLACES = 5  # such a mesh has surfaces in so many places apart from each other ...
 _APART = 0.02  # ... by this share of its own diagonal
 _BY_MATERIAL = 0.5  # and such meshes hold this share of the scene's triangles
+_WORDS = {"in": "inches", "ft": "feet"}
 _PLANT = 2.0  # least extent of a plant [m] ...
 _PIPES, _DIAMETERS = 10, 3  # ... and how many long round surfaces it has at least, of how many diameters
 _MOST_BOXES = 3000  # surfaces of a mesh that are compared
@@ -227,17 +228,19 @@ def _doubt(scene: Scene, evidence: UnitEvidence, metres: float) -> tuple[Diagnos
         return ()
     stated = next((name for name, length in METRES.items() if abs(length / metres - 1) < 1e-3), f"{metres:g} m")
     remedy = f"if so, read it with --scale {scale:.9g}; as it stands, nothing was rescaled"
+    # "In in" reads as a slip.
+    other = _WORDS.get(unit, unit)
     if evidence.certain:
         message = (
             f"the file's unit is {stated}, yet {evidence.hits[unit]} of {evidence.n_diameters} diameters of its pipes "
-            f"are standard ones in {unit}, {evidence.hits.get(stated, 0)} in {stated}; {remedy}"
+            f"are standard ones in {other}, {evidence.hits.get(stated, 0)} in {stated}; {remedy}"
         )
         return (Diagnostic("unit-doubt", message),)
     if not evidence.odd(metres, scene.n_meshes):
         return ()
     message = (
         f"the file's unit is {stated}, in which the scene is {evidence.largest * metres:.3g} m across and half of its "
-        f"meshes are below {evidence.median * metres:.2g} m, which is odd for a plant; in {unit} it would be "
+        f"meshes are below {evidence.median * metres:.2g} m, which is odd for a plant; in {other} it would be "
         f"{evidence.largest * METRES[unit]:.3g} m and {evidence.median * METRES[unit]:.2g} m; {remedy}"
     )
     return (Diagnostic("unit-doubt", message),)
