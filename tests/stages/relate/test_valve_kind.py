@@ -285,3 +285,19 @@ def test_a_body_that_swells_and_carries_nothing_is_a_check_valve(girth, top, sta
     found = kinds([merged(*parts)], ["valve body"], length, 50)
     assert (bool(found) and found[0][0] == "check valve" and found[0][1] >= SURE_FROM) is stated
     assert kinds([merged(*parts)], ["valve"], length, 50) == ()
+
+
+@pytest.mark.parametrize(
+    ("names", "openings", "kind"),
+    [
+        (["gauge", None], 1, "pressure gauge"),
+        ([None, None], 1, None),
+        ([None, None], 2, "flow meter"),
+        (["transmitter", None], 1, "transmitter"),
+    ],
+)
+def test_a_gauge_of_which_only_the_group_is_known_is_of_no_known_kind(names, openings, kind):
+    meshes = [shapes.box((0.1, 0.1, 0.1)), shapes.box((0.1, 0.1, 0.2))]
+    gauge = UnitParts("gauge", "G-001", (0, 1), None, ends(0.2)[:openings])
+    (named,) = name_kinds(Network((gauge,)), names, parts_of(*meshes)).units
+    assert named.kind == kind

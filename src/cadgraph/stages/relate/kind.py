@@ -58,11 +58,14 @@ def _kind(unit: UnitParts, names: Collection[str], parts: Parts) -> str | None:
     return next((name for name in sorted(names) if unit.unit_type == "equipment"), None)
 
 
-def _gauge(unit: UnitParts, names: Collection[str]) -> str:
+def _gauge(unit: UnitParts, names: Collection[str]) -> str | None:
     for name in _GAUGES:
         if name in names:
             return name if name != "transmitter" or len(unit.openings) < 2 else "flow meter"
-    return "flow meter" if len(unit.openings) > 1 and "gauge face" not in names else "pressure gauge"
+    if len(unit.openings) > 1 and "gauge face" not in names:
+        return "flow meter"
+    # Of what nothing but its group is known, nobody knows what it shows.
+    return "pressure gauge" if names else None
 
 
 def _tank(unit: UnitParts, parts: Parts) -> str:
