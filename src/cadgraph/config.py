@@ -54,7 +54,11 @@ class Section(BaseModel):
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False, strict=True)
 
 
-_LIMITS = ("max_meshes", "max_prims", "max_shape_triangles", "max_placed_triangles", "max_growth")
+# Settings that say whether a file is read, and not what of it.
+_WHETHER = frozenset({
+    "isolate", "strict", "timeout", "memory",
+    "max_meshes", "max_prims", "max_shape_triangles", "max_placed_triangles", "max_growth",
+})  # fmt: skip
 
 
 class LoadConfig(Section):
@@ -135,7 +139,7 @@ class LoadConfig(Section):
 
     def deciding(self) -> str:
         """The settings that decide what is read, and not only whether it is, as JSON."""
-        return self.model_dump_json(exclude={"isolate", "strict", "timeout", "memory", *_LIMITS})
+        return self.model_dump_json(exclude=set(_WHETHER))
 
     @model_validator(mode="after")
     def _one_way_to_measure(self) -> LoadConfig:

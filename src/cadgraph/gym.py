@@ -271,6 +271,14 @@ class _Shape:
         return np.where(lot.random(size) < _SHUFFLED, other, self.opening)
 
 
+def _bound(task: Task | None, process: Process) -> Task | None:
+    """A copy of a task that is bound to a plant: a task may be given to several."""
+    own = copy.deepcopy(task)
+    if own is not None:
+        own.bind(process)
+    return own
+
+
 def _check(process: Process, dt: float, seconds: float, task: object) -> None:
     if task is not None and not isinstance(task, Task):
         raise ValueError(f"task: give a Task, as ReachReading(gauge, value), not {task!r:.60}")
@@ -318,13 +326,10 @@ class PlantEnv(gymnasium.Env[npt.NDArray[np.float32], npt.NDArray[np.float32]]):
         self.process = Process(graph, scenario)
         """The plant, for reading."""
         _check(self.process, dt, seconds, task)
-        # A copy, as a task is bound to one plant.
-        self.task = copy.deepcopy(task)
+        self.task = _bound(task, self.process)
         self.dt, self.seconds, self.shuffle, self.render_mode = dt, seconds, shuffle, render_mode
         self._shape = _Shape.of(self.process)
         self._n_connections = len(self.process.network.graph.of_kind(Connected))
-        if self.task is not None:
-            self.task.bind(self.process)
         self.action_space = self._shape.action_space()
         self.observation_space = self._shape.observation_space()
 
@@ -423,12 +428,9 @@ class PlantVectorEnv(VectorEnv[npt.NDArray[np.float32], npt.NDArray[np.float32],
         self.plants = ProcessBatch(graph, scenario, num_envs)
         """The plants, for reading."""
         _check(self.plants.process, dt, seconds, task)
-        # A copy, as a task is bound to one plant.
-        self.task = copy.deepcopy(task)
+        self.task = _bound(task, self.plants.process)
         self.dt, self.seconds, self.shuffle, self.render_mode = dt, seconds, shuffle, render_mode
         self._shape = _Shape.of(self.plants.process)
-        if self.task is not None:
-            self.task.bind(self.plants.process)
         self.single_action_space = self._shape.action_space()
         self.single_observation_space = self._shape.observation_space()
         self.action_space = batch_space(self.single_action_space, num_envs)

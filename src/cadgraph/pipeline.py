@@ -99,11 +99,8 @@ def build(
         ValueError: a setting names a mesh that is not in the scene, or the scene's arrays don't fit together.
         TypeError: an argument is none of its kind.
     """
-    config = config or Config()
     tree = vocabulary or default_vocabulary()
-    if not isinstance(config, Config):
-        raise TypeError(f"build takes a Config, not {type(config).__name__}")
-    config = as_read(scene, config)
+    config = as_read(scene, config or Config())
     check_asked(tree, labeler, labels, corrections)
     catalogs = [read_catalog(file) for file in config.label.catalogs]
     analysis = lay_ground(analyse(scene, config, progress, crew), corrections, config)
@@ -139,11 +136,17 @@ def as_read(scene: Scene, config: Config) -> Config:
 
     Raises:
         ValueError: a setting says that it was read otherwise.
-        TypeError: it is no scene.
+        TypeError: it is no scene, or these are no settings.
     """
+    _check_scene(scene)
+    if not isinstance(config, Config):
+        raise TypeError(f"build takes a Config, not {type(config).__name__}")
+    return config_as_read(config, scene.source.read_with)
+
+
+def _check_scene(scene: object) -> None:
     if not isinstance(scene, Scene):
         raise TypeError(f"build takes a Scene, as cadgraph.load returns it, not {type(scene).__name__}")
-    return config_as_read(config, scene.source.read_with)
 
 
 @collector_paused()
@@ -162,8 +165,7 @@ def analyse(
         ValueError: a setting names a mesh that is not in the scene, or the scene's arrays don't fit together.
         TypeError: ``scene`` is no scene.
     """
-    if not isinstance(scene, Scene):
-        raise TypeError(f"build takes a Scene, as cadgraph.load returns it, not {type(scene).__name__}")
+    _check_scene(scene)
     config = config or Config()
     scene, from_scene = prepare_scene(scene)
     progress("measure", 0)

@@ -213,7 +213,7 @@ def isolate(
         verdict = close if n_valves else "no valve has to be closed: nothing that could flow to it was found"
     rows = []
     for o in found.openings:
-        ports = ", ".join((o.port, *o.other_ports)) if o.port else "-"
+        ports = ", ".join(o.ports) or "-"
         rows.append(f"{row('stays open', o.name, o.what, ports, _metres(o.distance))}\t{cell(o.why, _TEXT)}")
     rows += _doubt_rows(found.doubts)
     rows += [f"note\t{cell(remark, _TEXT)}" for remark in found.remarks]

@@ -66,8 +66,9 @@ def finish(scene: Scene, config: LoadConfig, path: Path) -> Scene:
 
 def _of_usual_size(scene: Scene, path: Path) -> Scene:
     """A scene whose metres are known only now, without what lies too far out; an odd size is told."""
-    far = [i for i in range(scene.n_meshes) if np.abs(scene.mesh(i)[0] + scene.origin).max() > TOO_FAR]
-    if far:
+    low, high = bounds_of(scene)
+    if np.abs([low + scene.origin, high + scene.origin]).max() > TOO_FAR:
+        far = [i for i in range(scene.n_meshes) if np.abs(scene.mesh(i)[0] + scene.origin).max() > TOO_FAR]
         if len(far) == scene.n_meshes:
             raise LoadError(
                 f"{path}: all of it lies farther out than a million kilometres, one unit being "
@@ -75,7 +76,7 @@ def _of_usual_size(scene: Scene, path: Path) -> Scene:
             )
         note = Diagnostic("too-far", TOO_FAR_TOLD, tuple(scene.paths[i] for i in far))
         scene = _noted(scene.select(np.setdiff1d(np.arange(scene.n_meshes), far)), note)
-    low, high = bounds_of(scene)
+        low, high = bounds_of(scene)
     told = odd_size(float((high - low).max()), scene.source)
     return _noted(scene, Diagnostic("unusual-size", told)) if told else scene
 

@@ -33,11 +33,13 @@ def find_source(
     there = [path for path in tried if _is_there(path, option)]
     if not there:
         raise LoadError(f"{tried[0]}: the file that the graph was made from is not there; give it with {option} FILE")
-    differences = {path: _difference(path, source, option) for path in there}
-    found = next((path for path in there if not differences[path]), None)
-    if found is None:
-        raise LoadError(f"{differences[there[0]]}; give that one with {option} FILE, or build the graph anew")
-    return found
+    told = ""
+    for path in there:
+        difference = _difference(path, source, option)
+        if not difference:
+            return path
+        told = told or difference
+    raise LoadError(f"{told}; give that one with {option} FILE, or build the graph anew")
 
 
 def _difference(path: Path, source: SourceRecord, option: str) -> str:

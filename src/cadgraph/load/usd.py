@@ -33,7 +33,7 @@ from cadgraph._io.text import printable
 from cadgraph.errors import LoadError
 from cadgraph.load.budget import Budget
 from cadgraph.load.packing import Z_UP_FROM, Notes, Piece, metres_z_up, pack
-from cadgraph.load.usd_assets import is_there, open_stage
+from cadgraph.load.usd_assets import file_of, is_there, open_stage
 from cadgraph.load.usd_color import Materials, mean_display_color
 from cadgraph.load.usd_mesh import CutMesh, RawMesh, cut_meshes
 from cadgraph.load.usd_units import note_mixed_units
@@ -115,8 +115,8 @@ def _scene(stage: Any, config: LoadConfig, notes: Notes, budget: Budget, take_wa
 
 def _referred(stage: Any) -> tuple[tuple[str, str], ...]:
     """The files that a stage is made of beside its root: path from the root's folder, SHA-256."""
-    root = _file_of(stage.GetRootLayer())
-    files = {file for layer in stage.GetUsedLayers() if (file := _file_of(layer)) and file != root}
+    root = file_of(stage.GetRootLayer())
+    files = {file for layer in stage.GetUsedLayers() if (file := file_of(layer)) and file != root}
     found = []
     for file in sorted(files):
         try:
@@ -124,12 +124,6 @@ def _referred(stage: Any) -> tuple[tuple[str, str], ...]:
         except OSError:
             continue  # what was read and is gone can't be told from what was changed
     return tuple(found)
-
-
-def _file_of(layer: Any) -> str:
-    """The file that holds a layer, of a package the package; empty for a layer in memory."""
-    path = str(layer.realPath or "")
-    return path.split("[", 1)[0] if path.endswith("]") else path
 
 
 def _seen_from(file: str, root: str) -> str:

@@ -26,7 +26,7 @@ from cadgraph.load.usd_census import Census
 if TYPE_CHECKING:
     from cadgraph.config import LoadConfig
 
-__all__ = ["Assets", "find_assets", "is_there", "open_layers", "open_stage"]
+__all__ = ["Assets", "file_of", "find_assets", "is_there", "open_layers", "open_stage"]
 
 _URL = re.compile(r"[A-Za-z][A-Za-z0-9+.-]+:")
 _ARGUMENTS = ":SDF_FORMAT_ARGS:"
@@ -58,6 +58,11 @@ class Assets:
     def root(self) -> LayerArcs | None:
         """The root layer; None where it can't be opened."""
         return next(iter(self.layers.values()), None)
+
+
+def file_of(layer: Any) -> str:
+    """The file that holds a layer, of a package the package; empty for a layer in memory."""
+    return str(layer.realPath).partition("[")[0]
 
 
 def open_layers(path: Path, asset_roots: Sequence[str] = ()) -> list[Any]:
@@ -146,7 +151,7 @@ def find_assets(path: Path, asset_roots: Sequence[str], notes: Notes) -> Assets:
         if layer.identifier in found.layers:
             continue
         arcs = found.layers[layer.identifier] = arcs_of(layer)
-        files.add(layer.realPath.partition("[")[0])
+        files.add(file_of(layer))
         waiting += _take_assets(found, layer, arcs, notes)
         for prim, clips in arcs.clips:
             for clip in clips:
@@ -287,7 +292,7 @@ def _check_growth(assets: Assets, budget: Budget) -> None:
 def _checked(stage: Any, assets: Assets) -> Any:
     """The stage, if nothing of it lies outside that was not foreseen."""
     for layer in stage.GetUsedLayers():
-        file = layer.realPath.partition("[")[0]
+        file = file_of(layer)
         if file and not any(_real(Path(file)).is_relative_to(root) for root in assets.roots):
             raise LoadError(
                 f"{assets.path}: refers to {_relative(assets, file)!r} outside the folder of the scene; "

@@ -245,7 +245,7 @@ class _Plant:
         item = run.items[-1 if last else 0]
         if item.place is not None:
             return item.place == place and (not self.network.is_valve(place) or self._owner(place) is not run)
-        if run.hosted[last] or self._is_outlet(run, last):
+        if self._is_set_on(run, last):
             return True
         return self._stands_at(run, last) and self._is_fitting(place) and self._owner(place) is not run
 
@@ -256,7 +256,11 @@ class _Plant:
 
     def _is_fitting(self, place: str) -> bool:
         """Whether the lines at a junction meet in a fitting, not on the side of a pipe."""
-        return not any(run.hosted[last] or self._is_outlet(run, last) for run, last in self.meets[place] if run.bounds)
+        return not any(self._is_set_on(run, last) for run, last in self.meets[place] if run.bounds)
+
+    def _is_set_on(self, run: _Run, last: bool) -> bool:
+        """Whether a line begins on the side of the pipes of others, with an outlet of its own or without."""
+        return run.hosted[last] or self._is_outlet(run, last)
 
     def _is_outlet(self, run: _Run, last: bool) -> bool:
         """Whether a line begins with a branch outlet that is set on the pipes of the others at a junction."""
@@ -273,11 +277,7 @@ class _Plant:
 
     def _owner(self, place: str) -> _Run | None:
         """The line that a fitting or a valve of several lines belongs to."""
-        runs = [
-            run
-            for run, last in self.meets[place]
-            if run.bounds and not run.hosted[last] and not self._is_outlet(run, last)
-        ]
+        runs = [run for run, last in self.meets[place] if run.bounds and not self._is_set_on(run, last)]
         return min(runs, key=lambda run: (-max(run.line.sizes, default=0), run.line.tag), default=None)
 
     def _pieces(self, run: _Run, i: int) -> Iterator[Component]:
@@ -357,8 +357,11 @@ class _Plant:
         item, station = (run.items[-1], run.bounds[-2]) if last else (run.items[0], run.bounds[1])
         side = 0 if last else 1
         place = run.line.end if last else run.line.start
-        own = run.hosted[last] or self._is_outlet(run, last)
-        if item.place is None and not own and not (self._stands_at(run, last) and self._is_fitting(place)):
+        if (
+            item.place is None
+            and not self._is_set_on(run, last)
+            and not (self._stands_at(run, last) and self._is_fitting(place))
+        ):
             # The graph has nothing of the junction, or only what is set on there: the lines meet in its point.
             station, side = (run.centreline.length, 1) if last else (0.0, 0)
         return run.centreline.at(station), item.sizes[side], item.diameters[side]
@@ -451,7 +454,7 @@ class _Plant:
                 parts=other.items[-1 if end else 0].parts if self._is_outlet(other, end) else item.parts,
             )
             for other, end in self.meets[place]
-            if other.bounds and (other.hosted[end] or self._is_outlet(other, end))
+            if other.bounds and self._is_set_on(other, end)
         ]
 
     def _pipes(self, run: _Run, i: int, base: Component, name: str | None) -> Iterator[Component]:

@@ -91,6 +91,11 @@ class Opening:
     why: str
     other_ports: tuple[str, ...] = ()
 
+    @property
+    def ports(self) -> tuple[str, ...]:
+        """All nozzles of the unit that it is reached by, the nearest first."""
+        return (self.port, *self.other_ports) if self.port else ()
+
 
 @dataclass(frozen=True)
 class Isolation:

@@ -209,9 +209,7 @@ def isolation_lines(found: Isolation, *, hints: bool = True) -> list[str]:
     told = []
     if found.openings:
         told.append(f"{found.name} can't be isolated wholly:")
-        open_rows = [
-            (f"{o.name} ({o.what})", _by(o.port, *o.other_ports), _metres(o.distance), o.why) for o in found.openings
-        ]
+        open_rows = [(f"{o.name} ({o.what})", _by(*o.ports), _metres(o.distance), o.why) for o in found.openings]
         told += [f"  {row}" for row in aligned(open_rows, right=(2,))]
     if found.doubts:
         heading = "these valves may not isolate" if found.valves else "nobody can tell what isolates"
@@ -432,8 +430,9 @@ def _step_row(step: Step) -> tuple[str, ...]:
     )
 
 
-def _by(port: str | None, *others: str) -> str:
-    return f"by {', '.join((port, *others))}" if port else ""
+def _by(*ports: str | None) -> str:
+    named = ", ".join(filter(None, ports))
+    return f"by {named}" if named else ""
 
 
 def _metres(value: float, at_least: bool = False) -> str:

@@ -127,8 +127,6 @@ class Session:
     ) -> Session:
         """Analyses a scene and asks a labeler about its parts; see ``cadgraph.build`` for arguments and errors."""
         config, tree = config or Config(), vocabulary or default_vocabulary()
-        if not isinstance(config, Config):
-            raise TypeError(f"a session takes a Config, not {type(config).__name__}")
         config = as_read(scene, config)
         check_asked(tree, labeler, labels, corrections)
         history = History.of(corrections) if history is None else history
