@@ -117,7 +117,7 @@ def test_sizes_alone_tell_of_many_meshes_and_not_of_few():
     [note] = finish(scene_of(huge, meters_per_unit=1.0), LoadConfig(), FILE).diagnostics
     assert note.code == "unit-doubt"
     assert "odd for a plant" in note.message
-    assert "--scale 0.001" in note.message
+    assert "read it with --unit mm" in note.message
     assert codes(finish(scene_of(huge[:12], meters_per_unit=1.0), LoadConfig(), FILE)) == []
 
 

@@ -11,6 +11,7 @@ from pxr import Gf, Sdf, Usd, UsdGeom, UsdShade
 from cadgraph.config import LoadConfig
 from cadgraph.errors import LoadError
 from cadgraph.load import load
+from cadgraph.load.losses import refuse_losses
 from shapes import box
 
 IN_PROCESS = LoadConfig(isolate=False)
@@ -194,6 +195,29 @@ def test_collapsed_mesh_is_left_out_and_flat_one_kept(stage):
     scene = saved(stage)
     assert scene.paths == ("/flat",)
     assert [n.meshes for n in scene.diagnostics if n.code == "degenerate-mesh"] == [("/line",)]
+    assert [n.meshes for n in scene.diagnostics if n.code == "flat-transform"] == [("/flat",)]
+
+
+def test_a_sheet_without_depth_of_its_own_loses_none(stage):
+    square = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
+    UsdGeom.XformCommonAPI(add_mesh(stage, "/sheet", square, [[0, 1, 2, 3]])).SetScale((1, 1, 0))
+    assert "flat-transform" not in [n.code for n in saved(stage).diagnostics]
+
+
+def test_a_scene_that_a_scale_of_zero_presses_flat_is_told_and_refused_where_nothing_may_be_lost(stage):
+    root = UsdGeom.Xform.Define(stage, "/root")
+    UsdGeom.XformCommonAPI(root).SetScale((1, 1, 0))
+    for name in ("box", "sheet", "rod"):
+        UsdGeom.Cube.Define(stage, f"/root/{name}")
+    UsdGeom.XformCommonAPI(UsdGeom.Xformable(stage.GetPrimAtPath("/root/sheet"))).SetScale((1, 1, 1e-4))
+    UsdGeom.Cube.Define(stage, "/wire")
+    UsdGeom.XformCommonAPI(UsdGeom.Xformable(stage.GetPrimAtPath("/wire"))).SetScale((1e-4, 1e-4, 1))
+    scene = saved(stage)
+    assert [n.meshes for n in scene.diagnostics if n.code == "flat-transform"] == [
+        ("/root/box", "/root/rod", "/root/sheet")
+    ]
+    with pytest.raises(LoadError, match="presses it flat"):
+        refuse_losses(scene, "a.usda")
 
 
 def test_a_placement_with_a_perspective_is_placed_without_and_told(stage):

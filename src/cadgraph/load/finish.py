@@ -223,28 +223,38 @@ def _hint(scene: Scene) -> str:
 
 def _doubt(scene: Scene, evidence: UnitEvidence, metres: float) -> tuple[Diagnostic, ...]:
     """What is to be said where a file's parts speak for another unit than it states."""
-    unit = evidence.best
-    scale = METRES[unit] / metres
-    if abs(scale - 1) < 1e-3:
-        return ()
     stated = next((name for name, length in METRES.items() if abs(length / metres - 1) < 1e-3), f"{metres:g} m")
-    remedy = f"if so, read it with --scale {scale:.9g}; as it stands, nothing was rescaled"
-    # "In in" reads as a slip.
-    other = _WORDS.get(unit, unit)
+    unit = evidence.best
     if evidence.certain:
+        scale = METRES[unit] / metres
+        if abs(scale - 1) < 1e-3:
+            return ()
+        # "In in" reads as a slip.
         message = (
             f"the file's unit is {stated}, yet {evidence.hits[unit]} of {evidence.n_diameters} diameters of its pipes "
-            f"are standard ones in {other}, {evidence.hits.get(stated, 0)} in {stated}; {remedy}"
+            f"are standard ones in {_WORDS.get(unit, unit)}, {evidence.hits.get(stated, 0)} in {stated}; if so, read "
+            f"it with --scale {scale:.9g}; as it stands, nothing was rescaled"
         )
         return (Diagnostic("unit-doubt", message),)
     if not evidence.odd(metres, scene.n_meshes):
         return ()
+    sizes = ", ".join(
+        f"in {_WORDS.get(one, one)} {evidence.largest * METRES[one]:.3g} m and {evidence.median * METRES[one]:.2g} m"
+        for one in evidence.fitting
+    )
     message = (
         f"the file's unit is {stated}, in which the scene is {evidence.largest * metres:.3g} m across and half of its "
-        f"meshes are below {evidence.median * metres:.2g} m, which is odd for a plant; in {other} it would be "
-        f"{evidence.largest * METRES[unit]:.3g} m and {evidence.median * METRES[unit]:.2g} m; {remedy}"
+        f"meshes are below {evidence.median * metres:.2g} m, which is odd for a plant. They would be {sizes}; sizes "
+        f"don't tell units apart more exactly: read it with {_either(evidence.fitting)} if that is right; as it "
+        "stands, nothing was rescaled"
     )
     return (Diagnostic("unit-doubt", message),)
+
+
+def _either(units: tuple[str, ...]) -> str:
+    """The settings that take these units, as a choice."""
+    given = [f"--unit {unit}" for unit in units]
+    return " or ".join([", ".join(given[:-1]), given[-1]] if len(given) > 1 else given)
 
 
 def _with_up(scene: Scene, config: LoadConfig) -> Scene:

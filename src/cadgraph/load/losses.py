@@ -9,7 +9,7 @@ __all__ = ["LOST_GEOMETRY", "refuse_losses"]
 
 LOST_GEOMETRY = frozenset({
     "broken-chunk", "broken-element", "broken-facet", "broken-mesh", "broken-node", "broken-object", "broken-primitive",
-    "cut-short", "damaged-entity", "damaged-source", "empty-mesh", "invalid-face-counts",
+    "cut-short", "damaged-entity", "damaged-source", "empty-mesh", "flat-transform", "invalid-face-counts",
     "invalid-indices", "invalid-instancer", "invalid-points", "invalid-size", "invalid-transform",
     "missing-layer", "missing-object", "missing-payload", "missing-prototype", "missing-reference",
     "outside-asset", "projective-transform", "too-deep", "too-far",

@@ -34,6 +34,8 @@ _STRAIGHT = 1e-9  # how exactly the last column of a placement is 0, 0, 0, 1
 _PROJECTIVE_TOLD = (
     "its placement has a perspective, which that of a thing has not: it is placed without; see where it lies"
 )
+_FLAT = 1e-7  # least over greatest stretch of a placement that leaves a thing with depth
+_FLAT_TOLD = "its placement presses it flat (a scale of 0 along one direction): it has no depth here"
 _EXAMPLES = 20  # so many paths stand for the rest in a note on meshes that were loaded
 
 
@@ -120,8 +122,8 @@ def pack(
     Mirrored pieces get their triangles turned, so that these still face outward. A piece without area is left out
     (``degenerate-mesh``), and so is one with a placement that isn't finite (``invalid-transform``) or that reaches
     farther than a million kilometres from the origin (``too-far``). One whose placement has a perspective is placed
-    without it (``projective-transform``). A scene smaller than a millimetre or larger than
-    100 km is reported (``unusual-size``).
+    without it (``projective-transform``); one that a placement presses flat is kept as it lies (``flat-transform``).
+    A scene smaller than a millimetre or larger than 100 km is reported (``unusual-size``).
 
     Args:
         pieces: in any order.
@@ -199,6 +201,8 @@ def pack_placed(
         low, high = placed.bounds()
         kept = placed.kept([paths[i] for i in order.tolist()], low, high, notes)
     order, placed = order[kept], placed.select(kept)
+    for i in placed.flat().tolist():
+        notes.add("flat-transform", _FLAT_TOLD, paths[order[i]])
     if source.unit_stated:
         _note_size(low[kept], high[kept], source, notes)
     names = Names()
@@ -304,6 +308,20 @@ class _Placed:
             else:
                 kept.append(i)
         return np.array(kept, np.int64)
+
+    def flat(self) -> Ints:
+        """The meshes that their placement leaves without the depth that they have."""
+        size = np.linalg.norm(self.turn, axis=(1, 2))
+        # A thin rod has a small volume, too; what tells is the least stretch against the greatest.
+        likely = np.flatnonzero(np.abs(np.linalg.det(self.turn)) <= _FLAT * size**3)
+        directions, sizes, _ = np.linalg.svd(self.turn[likely])
+        likely, lost = likely[sizes[:, 2] <= _FLAT * sizes[:, 0]], directions[sizes[:, 2] <= _FLAT * sizes[:, 0], :, 2]
+        deep = [
+            np.ptp(points @ along) > _FLAT * np.ptp(points, axis=0).max()
+            for points, along in ((self.shapes[self.shape[i]][0], lost[k]) for k, i in enumerate(likely.tolist()))
+        ]
+        pressed: Ints = likely[np.array(deep, bool)]
+        return pressed
 
     def _have_area(self) -> npt.NDArray[np.bool_]:
         """Whether the first triangle of each mesh has area: nearly always that settles it for all of them."""

@@ -52,7 +52,7 @@ class UnitEvidence:
     median: float
 
     def odd(self, metres: float, n_meshes: int) -> bool:
-        """Whether the sizes of a scene and of its meshes are odd for a plant, and usual in the likeliest unit.
+        """Whether the sizes of scene and meshes are odd for a plant, and usual or far less odd in the likeliest unit.
 
         Args:
             metres: length of the file's unit [m].
@@ -60,7 +60,15 @@ class UnitEvidence:
         """
         if n_meshes < _FEW_FOR_SIZES:
             return False
-        return self._oddness(metres) > _ODD and self._oddness(METRES[self.best]) < _USUAL
+        odd, least = self._oddness(metres), self._oddness(METRES[self.best])
+        # Where every bolt and thread is drawn, half of the meshes are smaller than those of a plant in any unit.
+        return odd > _ODD and (least < _USUAL or odd - least > 2 * _ODD)
+
+    @property
+    def fitting(self) -> tuple[str, ...]:
+        """The likeliest unit, then the others in which the sizes are usual for a plant, the most usual first."""
+        ranked = sorted(METRES, key=lambda unit: (unit != self.best, self._oddness(METRES[unit])))
+        return tuple(unit for unit in ranked if unit == self.best or self._oddness(METRES[unit]) < _USUAL)
 
     def _oddness(self, metres: float) -> float:
         return float(

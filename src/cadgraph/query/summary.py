@@ -23,7 +23,7 @@ _GRAVE = frozenset({
     "damaged-entity", "trailing-bytes", "unbalanced-tree", "unreadable",
     "damaged-source", "invalid-units", "invalid-up-axis", "missing-layer", "missing-payload", "missing-reference",
     "mixed-units", "mixed-up-axis", "outside-asset", "unit-doubt", "missing-up-axis",
-    "unusual-size", "vocabulary-unknown-to-model",
+    "flat-transform", "projective-transform", "unusual-size", "vocabulary-unknown-to-model",
     "attributes-unread", "attributes-damaged", "attributes-of-another", "invalid-face-counts", "too-far",
 })  # fmt: skip
 """Codes of findings that are said aloud: something is missing, or with the wrong scale or vocabulary hardly any label
