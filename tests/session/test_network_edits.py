@@ -158,7 +158,7 @@ def test_a_device_that_labels_missed_is_not_found_again_where_it_was_cut_off():
         ({"kind": "merge", "parts": [part(0), part(4)]}, "too far apart"),
         ({"kind": "direction", "source": "V-001", "target": "T-001"}, "nothing connects"),
         ({"kind": "tag", "unit": "V-001", "tag": "V-001"}, "is called so already"),
-        ({"kind": "tag", "unit": "V-001", "tag": "t 001"}, "another unit is called T-001"),
+        ({"kind": "tag", "unit": "V-001", "tag": "b 1"}, "another unit is called b 1"),
         ({"kind": "join", "first": "part-00000", "second": "V-001"}, "V-001 is a unit, and parts join: name that one"),
         ({"kind": "tag", "unit": "V-001", "tag": " "}, "at least one letter"),
         ({"kind": "tag", "unit": "V-001", "tag": "x" * 65}, "at most 64"),
@@ -181,6 +181,18 @@ def test_what_can_not_be_carried_out_is_refused_in_one_line_and_changes_nothing(
         session.apply([{"kind": "tag", "unit": "T-001", "tag": "B-1"}, edit])
     assert "\n" not in str(caught.value)
     assert (bytes_of(session), session.history) == (before, History())
+
+
+def test_two_units_change_tags_with_each_other_in_one_correction():
+    session = session_of(line_with_a_gap())
+    before = {unit.tag: unit.parts for unit in session.graph.units()}
+    with pytest.raises(ValueError, match="another unit is called V-001"):
+        session.apply([{"kind": "tag", "unit": "T-001", "tag": "v 001"}])
+    session.apply([{"kind": "tag", "unit": "T-001", "tag": "V-001"}, {"kind": "tag", "unit": "V-001", "tag": "T-001"}])
+    assert {unit.tag: unit.parts for unit in session.graph.units()} == {
+        "V-001": before["T-001"], "T-001": before["V-001"],
+    }  # fmt: skip
+    assert not session.lost
 
 
 @pytest.fixture(scope="module")

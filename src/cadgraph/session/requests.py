@@ -167,6 +167,7 @@ class Requests:
             LabelError: the vocabulary has no such label.
         """
         done = [self._one(request) for request in requests]
+        self._refuse_tags([request for request in requests if isinstance(request, TagRequest)])
         told = _together([words for _, words in done])
         more = f"; and {len(told) - 3} more" if len(told) > 3 else ""
         return tuple(edit for edit, _ in done), "; ".join(told[:3]) + more
@@ -242,12 +243,16 @@ class Requests:
             raise ValueError(f"tag {tag!r}: ids of the graph and numbers of lines look like this; give it another one")
         if "," in tag:
             raise ValueError(f"tag {tag!r}: a comma stands between tags; give it one without")
-        for other in self.graph.units():
-            if other.id != unit.id and (
-                other.tag == tag or (loose_tag(tag) and loose_tag(other.tag) == loose_tag(tag))
-            ):
-                raise ValueError(f"tag {tag!r}: another unit is called {other.tag}; tags must differ")
         return Tag(self._anchors_of(unit), tag), f"{unit.tag} is called {tag}"
+
+    def _refuse_tags(self, requests: Sequence[TagRequest]) -> None:
+        """Refuses a tag that another unit would have once all are given: two units may change tags with each other."""
+        given = {self.graph.unit(request.unit).id: check_tag(request.tag) for request in requests}
+        for unit, tag in given.items():
+            for other in self.graph.units():
+                called = given.get(other.id, other.tag)
+                if other.id != unit and (called == tag or (loose_tag(tag) and loose_tag(called) == loose_tag(tag))):
+                    raise ValueError(f"tag {tag!r}: another unit is called {called}; tags must differ")
 
     # Joints and directions
 
