@@ -347,11 +347,18 @@ def test_a_signal_that_a_server_took_over_does_not_come_again(monkeypatch):
     assert heard == [1]
 
 
-@pytest.mark.parametrize("unit", ["nan", "0", "-1", "inf", "1e-9"])
+@pytest.mark.parametrize("unit", ["nan", "0", "-1", "inf", "1e-9", "mile"])
 def test_a_plant_in_an_impossible_unit_is_refused(capsys, tmp_path, unit):
     message = refused(capsys, "environment", "make", "-o", tmp_path / "a.usdc", "--unit", unit)
     assert "from 1e-06 to 1000" in message
+    assert "give m, dm, cm, mm" in message
     assert not (tmp_path / "a.usdc").exists()
+
+
+def test_a_plant_is_written_in_a_unit_by_its_name(capsys, tmp_path):
+    target = tmp_path / "a.usda"
+    assert run(capsys, "environment", "make", "--preset", "riser", "-o", target, "--unit", "in")[0] == 0
+    assert "metersPerUnit = 0.0254" in target.read_text()
 
 
 def test_a_plant_is_drawn_as_others_draw_it(capsys, tmp_path):

@@ -367,7 +367,7 @@ def test_the_command_line_writes_each_format_and_fits_the_truth_to_what_is_read(
             main([str(word) for word in words])
         return end.value.code or 0, "".join(capsys.readouterr())
 
-    target = tmp_path / "riser.usda"
+    target = tmp_path / "own.usda"
     make_it = ("environment", "make", "--preset", "riser", "--style", "bim", "-o")
     assert run(*make_it, tmp_path / "riser.rvm", "--wrong-classes", "0.1")[0] == 0
     assert {path.name for path in tmp_path.iterdir()} == {"riser.rvm", "riser.att", "riser.truth.json"}
@@ -378,6 +378,9 @@ def test_the_command_line_writes_each_format_and_fits_the_truth_to_what_is_read(
     assert code != 0
     assert "--missing-names is no setting of usd" in said
     assert run(*make_it, tmp_path / "other.rvm")[0] == run(*make_it, target)[0] == 0
+    # Its meshes are called otherwise, so that this truth would be that of one of both.
+    code, said = run(*make_it, tmp_path / "other.usd")
+    assert (code, "other.truth.json is the truth of" in said) == (2, True)
     # What a file of this format does not say of its unit and up axis, its truth does.
     assert run(*make_it, tmp_path / "bag.obj", "--unit", "0.0254", "--up", "Z")[0] == 0
     code, said = run("environment", "match", tmp_path / "bag.obj", "-o", tmp_path / "bag.truth.json")
@@ -388,5 +391,5 @@ def test_the_command_line_writes_each_format_and_fits_the_truth_to_what_is_read(
     )
     assert (code, "75 meshes" in said) == (0, True)
     fitted = Truth.load(tmp_path / "fitted.truth.json")
-    own = Truth.load(tmp_path / "riser.truth.json")
+    own = Truth.load(tmp_path / "own.truth.json")
     assert {row.mesh: row.name for row in fitted.meshes} == {row.mesh: row.name for row in own.meshes}

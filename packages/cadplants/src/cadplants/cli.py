@@ -55,7 +55,10 @@ def make_plant(
         str | None,
         typer.Option(help="Draw it as others do: gaps, setback, gaskets, insulation, primitives... or all."),
     ] = None,
-    unit: Annotated[float | None, typer.Option(help="Metres in one authored unit; 0.001 by default, of GLB 1.")] = None,
+    unit: Annotated[
+        str | None,
+        typer.Option(help="Authored unit: mm, cm, m, in... or metres in it; mm by default, of GLB m."),
+    ] = None,
     up: Annotated[str | None, typer.Option(help="Authored up axis, Y or Z; Z by default, of GLB and OBJ Y.")] = None,
     instances: Annotated[
         str | None,
@@ -92,9 +95,10 @@ def make_plant(
         if given_so:
             err.print(f"[dim]{old} is deprecated; use {new}[/]")
     style, defective, defects = style or hand, defective or spoilt, defects or sins
-    given = {"meters_per_unit": unit, "up_axis": up, "instances": instances, "polygons": polygons}
+    given = {"meters_per_unit": _metres_in(unit), "up_axis": up, "instances": instances, "polygons": polygons}
     told = {"layout": layout, "wrong_classes": wrong_classes, "missing_names": missing_names}
     authoring = _authoring(format_of(output, form).name, given, told, seed if defects else None)
+    _refuse_shared_truth(output)
     plant = make(preset, seed, style, draw_defects(seed) if defects else _asked_for(drawn, defective))
     truth = write_plant(plant, output, authoring, form)
     out.print(f"wrote {escape(str(output))} and {escape(str(truth))}")
@@ -111,16 +115,40 @@ def _authoring(form: str, given: dict[str, Any], told: dict[str, Any], seed: int
     ):
         if value is not None and value not in choices:
             raise ValueError(f"{name} {value}: give {', '.join(choices[:-1])} or {choices[-1]}")
-    unit = given["meters_per_unit"]
-    # Written so that NaN fails it too.
-    if unit is not None and not 1e-6 <= unit <= 1e3:
-        raise ValueError(f"--unit {unit:g}: give the length of one authored unit in metres, from 1e-06 to 1000")
     if form == "usd":
         _refuse(told, form)
         usual = cadplants.UsdStyle() if seed is None else cadplants.draw_style(seed)
         return replace(usual, **{name: value for name, value in given.items() if value is not None})
     _refuse({"instances": given.pop("instances"), "polygons": given.pop("polygons")}, form)
     return _file_style(given, told)
+
+
+def _metres_in(unit: str | None) -> float | None:
+    """The length of a unit, given by name or in metres."""
+    from cadgraph.load.units import METRES
+
+    if unit is None or unit in METRES:
+        return METRES[unit] if unit else None
+    try:
+        metres = float(unit)
+    except ValueError:
+        metres = float("nan")
+    # Written so that NaN fails it too.
+    if not 1e-6 <= metres <= 1e3:
+        raise ValueError(f"--unit {unit}: give {', '.join(METRES)}, or the length of it in metres, from 1e-06 to 1000")
+    return metres
+
+
+def _refuse_shared_truth(output: Path) -> None:
+    """Refuses a file whose truth would take the place of that of another file, which it may not fit."""
+    from cadplants import truth_path
+    from cadplants.writers import FORMATS
+
+    truth = truth_path(output)
+    for suffix in (suffix for form in FORMATS for suffix in form.suffixes):
+        other = output.with_suffix(suffix)
+        if suffix != output.suffix.lower() and truth.exists() and other.exists():
+            raise ValueError(f"{truth} is the truth of {other}; give {output.name} another name or folder")
 
 
 def _refuse(settings: dict[str, Any], form: str) -> None:
@@ -180,6 +208,7 @@ def make_device_file(
     if output is None:
         _tell_parameters(family_called(name), draw_parameters(name, seed, told, style))
         return
+    _refuse_shared_truth(output)
     plant = make_device(name, seed, style, given=told)
     truth = write_plant(plant, output)
     out.print(f"wrote {escape(str(output))} and {escape(str(truth))}")
