@@ -164,6 +164,13 @@ def test_what_cannot_be_used_is_told(tmp_path, line, code):
     assert [found.startswith(code) for found in codes(scene)] == [True]
 
 
+@pytest.mark.parametrize(("end", "told"), [
+    ("f 1 2", True), ("f 1", True), ("v 0.5", True), ("f 1 2 3", False), ("f 1 2\n", False), ("# 1", False), ("", False),
+])  # fmt: skip
+def test_a_file_that_ends_within_a_line_is_told(tmp_path, end, told):
+    assert ("cut-short" in codes(loaded(tmp_path, f"{TRIANGLE}f 1 2 3\n{end}"))) == told
+
+
 def test_a_broken_point_keeps_the_numbers_of_those_behind_it(tmp_path):
     scene = loaded(tmp_path, "v 9 x\nv 0 0 0\nv 1 0 0 0.5 0.5 0.5\nv 0 1 0\nf 2 3 4\n")
     np.testing.assert_array_equal(scene.triangles()[0], [[0, 0, 0], [1, 0, 0], [0, 1, 0]])

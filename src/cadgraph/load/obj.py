@@ -8,7 +8,8 @@ Notes in ``Scene.diagnostics``:
 - left out: ``no-surface`` (points and lines), ``unsupported-geometry`` (free-form curves and surfaces), and those of
   ``pack``;
 - repaired: ``invalid-points``, ``invalid-indices``, ``invalid-face-counts``, ``self-intersecting-faces``;
-- guessed: ``split-by-material``, ``material-library``.
+- guessed: ``split-by-material``, ``material-library``;
+- told: ``cut-short``.
 """
 
 from __future__ import annotations
@@ -39,6 +40,7 @@ __all__ = ["read"]
 _MOST_CORNERS = 10_000  # of one face; ours: cutting ears takes the square of it
 _MOST_LIBRARIES = 100  # ours
 _LIBRARY_BYTES = 1 << 24  # ours; a material takes about 200
+_LONGEST_END = 4096  # bytes that a last line without its end is looked for in
 _FREE_FORM = {"curv", "curv2", "surf", "vp", "cstype"}
 _ABRIDGED = ("invalid-points", "invalid-indices", "invalid-face-counts", "self-intersecting-faces")
 
@@ -107,6 +109,10 @@ def read(path: Path, config: LoadConfig) -> Scene:
     if not len(counts):
         kind = "a point cloud; model its surfaces first" if len(points) else "no face; export it with its geometry"
         raise LoadError(f"{path}: holds {kind}")
+    if _ends_early(path):
+        notes.add(
+            "cut-short", "the file ends within a line: it is likely cut short; compare its size with that of its source"
+        )
     facts: list[Fact] = []
     triangles, owner = _triangles(points, counts, corners, owner, notes)
     pieces = list(_pieces(path, points, triangles, owner, text, facts, notes))
@@ -117,6 +123,16 @@ def read(path: Path, config: LoadConfig) -> Scene:
         why = "; ".join(note.message for note in scene.diagnostics)
         raise LoadError(f"{path}: none of its {len(counts):,} faces can be used ({why}); export it again")
     return scene
+
+
+def _ends_early(path: Path) -> bool:
+    """Whether the last line has no end, and is a face or a point that lacks a part."""
+    with path.open("rb") as file:
+        size = file.seek(0, 2)
+        file.seek(max(0, size - _LONGEST_END))
+        line = file.read().splitlines(keepends=True)[-1:]
+    words = line[0].split() if line and not line[0].endswith((b"\n", b"\r")) else []
+    return len(words) < 4 and words[:1] in ([b"f"], [b"v"])
 
 
 def _take(lines: Lines, text: _Text, notes: Notes) -> None:
