@@ -165,7 +165,8 @@ def test_what_cannot_be_used_is_told(tmp_path, line, code):
 
 
 @pytest.mark.parametrize(("end", "told"), [
-    ("f 1 2", True), ("f 1", True), ("v 0.5", True), ("f 1 2 3", False), ("f 1 2\n", False), ("# 1", False), ("", False),
+    ("f 1 2", True), ("f 1", True), ("v 0.5", True),
+    ("f 1 2 3", False), ("f 1 2\n", False), ("# 1", False), ("", False),
 ])  # fmt: skip
 def test_a_file_that_ends_within_a_line_is_told(tmp_path, end, told):
     assert ("cut-short" in codes(loaded(tmp_path, f"{TRIANGLE}f 1 2 3\n{end}"))) == told
