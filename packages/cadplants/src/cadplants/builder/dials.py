@@ -154,8 +154,8 @@ class Dial(Params):
             t.add("gauge needle", self.dragged.solid(0.9 * wall, 0.82 * deep + 0.0035), of="handle", front=front)
         if self.glazed:
             n, low = t.n(wall), 0.93 * deep
-            glass = cylinder(0.99 * wall, low, low + 0.002, n)
-            t.add("gauge glass", glass if self.flat else dome(0.99 * wall, 0.12 * wall, 0.95 * deep, n), front=front)
+            glass = cylinder(wall, low, low + 0.002, n)
+            t.add("gauge glass", glass if self.flat else dome(wall, 0.12 * wall, 0.95 * deep, n), front=front)
 
 
 class Shank(Params):
