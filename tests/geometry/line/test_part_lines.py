@@ -41,6 +41,13 @@ def test_each_end_of_a_disc_has_the_radius_of_its_face():
     assert all(np.isnan(end.bore) for end in line.ends)
 
 
+def test_a_hollow_pipe_is_as_wide_all_along_whichever_way_its_faces_look():
+    vertices, faces = shapes.tube(0.0167, 0.0133, 0.3, 20)
+    for wound in (faces, faces[:, ::-1]):
+        (line,) = lines_of((vertices, wound)).values()
+        assert line.branches[0].radius == pytest.approx(0.0167)
+
+
 def test_a_low_raised_face_is_one_with_its_flange():
     outline = [(0.026, -0.02), (0.046, -0.02), (0.046, -0.0195), (0.075, -0.0195), (0.075, 0.0195), (0.046, 0.0195),
                (0.046, 0.02), (0.026, 0.02)]  # fmt: skip

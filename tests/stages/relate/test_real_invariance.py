@@ -19,15 +19,20 @@ from cadgraph.pipeline import build
 
 REAL = Path(__file__).parents[3] / "../shared/data/real"
 MIRROR = np.diag([1.0, -1.0, 1.0])
-CHANGES = ("quartered", "shuffled", "mirrored", "unwelded")
+CHANGES = ("quartered", "shuffled", "mirrored", "unwelded", "inside out")
 
 
 def mirrored(mesh, random):
     return mesh[0] @ MIRROR, mesh[1][:, ::-1]
 
 
+def inside_out(mesh, random):
+    return mesh[0], mesh[1][:, ::-1]
+
+
 CHANGE = {
     "quartered": fittings.quartered, "shuffled": fittings.shuffled, "mirrored": mirrored, "unwelded": fittings.soup,
+    "inside out": inside_out,
 }  # fmt: skip
 
 

@@ -101,23 +101,24 @@ def _trace(
 ) -> dict[int, Centreline | None]:
     """The lines of distinct shapes, where each occurs first."""
     breadth = properties.obb_extents[known.first[list(shapes)]]
-    lines: dict[int, Centreline | None] = {
-        shape: _explained(_outward(scene, known, shape), flat, _triangles(scene, known, shape))
-        for shape, flat in zip(shapes, (breadth[:, 2] < _FLAT * breadth[:, 1]).tolist(), strict=True)
-    }
+    lines: dict[int, Centreline | None] = {}
+    for shape, flat in zip(shapes, (breadth[:, 2] < _FLAT * breadth[:, 1]).tolist(), strict=True):
+        triangles = _triangles(scene, properties, int(known.first[shape]))
+        lines[shape] = _explained(_outward(known, shape, triangles), flat, triangles)
     rest = [shape for shape, line in lines.items() if line is None]
     if rest:
         meshes = known.first[rest]
         found = trace_centrelines(scene.select(meshes), properties.select(meshes), workers)
-        for shape, traced in zip(rest, found, strict=True):
-            lines[shape] = _fitted(_outward(scene, known, shape), traced, _triangles(scene, known, shape))
+        for shape, mesh, traced in zip(rest, meshes.tolist(), found, strict=True):
+            triangles = _triangles(scene, properties, mesh)
+            lines[shape] = _fitted(_outward(known, shape, triangles), traced, triangles)
     return lines
 
 
-def _outward(scene: Scene, known: ShapeAnalysis, shape: int) -> Facts:
+def _outward(known: ShapeAnalysis, shape: int, triangles: Floats) -> Facts:
     """What is known of a shape, with every face looking outward."""
     facts = known.facts[shape]
-    discs = turned_outward(facts.discs, _triangles(scene, known, shape))
+    discs = turned_outward(facts.discs, triangles)
     if all(new is old for new, old in zip(discs, facts.discs, strict=True)):
         return facts
     return replace(facts, discs=discs, ports=tuple(find_ports(list(discs))[0]))
@@ -132,11 +133,12 @@ def _explained(facts: Facts, flat: bool, triangles: Floats) -> Centreline | None
     return line or join_mouths(mouths, triangles)
 
 
-def _triangles(scene: Scene, known: ShapeAnalysis, shape: int) -> Floats:
-    """``(n, 3, 3)`` of a shape, those that are finite [m]."""
-    vertices, faces = scene.mesh(int(known.first[shape]))
+def _triangles(scene: Scene, properties: Properties, mesh: int) -> Floats:
+    """``(n, 3, 3)`` of a mesh, those that are finite [m], wound so that its surface as a whole looks outward."""
+    vertices, faces = scene.mesh(mesh)
     corners: Floats = vertices[faces[np.all((faces >= 0) & (faces < len(vertices)), axis=1)]]
-    return corners[np.isfinite(corners).all(axis=(1, 2))]
+    corners = corners[np.isfinite(corners).all(axis=(1, 2))]
+    return corners[:, ::-1] if properties.volume[mesh] < 0 else corners
 
 
 def _fitted(facts: Facts, traced: Centreline | NotTube, triangles: Floats) -> Centreline | None:
