@@ -63,6 +63,8 @@ def stroke_of_lever(lever: Lever, valve: Valve) -> Stroke:
     angle = angle - 180.0 if angle > 180.0 - _AT_STOP else angle
     why = "the lever along the line" if valve.line.straight else "the lever along its one line: its axis is unproven"
     if angle <= 90.0 + _AT_STOP:
+        # Beyond a stop by no more than it is off the line: it is drawn at that stop, which its stroke must reach.
+        angle = min(max(angle, 0.0), 90.0)
         return Stroke(_exact(angle), _exact(angle - 90.0), {"open": why, "limits": limits})
     sources = {"open": why, "limits": "assumed: a quarter turn, anticlockwise shuts, as it is drawn between the stops"}
     return Stroke(_exact(angle - 180.0), _exact(angle - 90.0), sources)
