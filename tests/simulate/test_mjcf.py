@@ -33,6 +33,7 @@ def test_it_is_an_export_format_and_tells_what_has_no_joint(written, tmp_path):
     again = export_graph(graph, "mjcf", tmp_path / "out", source)
     assert [file.name for file in again] == [file.name for file in files]
     assert again[0] == tmp_path / "out/mjcf/plant.xml"
+    assert export_graph(graph, "mjcf", tmp_path / "mjcf", source)[0] == tmp_path / "mjcf/plant.xml"
     _, notes = write_mjcf(graph, load(source, movable.QUICK), tmp_path / "bare.xml")
     assert [note.code for note in notes] == ["immovable"]
     assert notes[0].message.startswith("G-2 has no joint")

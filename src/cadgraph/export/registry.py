@@ -388,7 +388,8 @@ def _place(form: Format, path: Path, source: Path | None) -> Path:
         file = file.with_suffix(form.copied_as[source.suffix.lower()])
     endings = (file.suffix, *form.also)
     if path.is_dir() or path.suffix.lower() not in (*endings, *_OTHER_FILES):
-        return path / file
+        # A folder that is called as the format's own holds the files itself, not another folder of that name.
+        return path / (file.name if path.name == file.parent.name else file)
     if path.suffix.lower() not in endings:
         raise ValueError(f"{path}: {form.name} is written as {' or '.join(endings)}; give such a file, or a folder")
     return path
