@@ -96,10 +96,14 @@ def test_a_label_that_is_not_sure_is_marked_as_likely():
 
 
 @pytest.mark.parametrize("unknown", [("Spaceship", None), ("Pipe assembly", "warp core")])
-def test_label_outside_the_vocabulary_is_dropped(unknown):
-    parts = parts_of(scene_of(2), (0,), (1,))
-    answers = Label(*unknown, 1.0, "geometry"), PIPE
-    assert label_parts(Says(*answers), parts, NO_CONTACTS, VOCABULARY, LabelConfig()).labels == (None, PIPE)
+def test_label_outside_the_vocabulary_is_dropped_and_told(unknown):
+    parts = parts_of(scene_of(3), (0,), (1,), (2,))
+    stranger = Label(*unknown, 1.0, "geometry")
+    said = label_parts(Says(stranger, PIPE, stranger), parts, NO_CONTACTS, VOCABULARY, LabelConfig())
+    assert said.labels == (None, PIPE, None)
+    [note] = said.diagnostics
+    assert (note.code, note.meshes) == ("unknown-label", ("/mesh_0", "/mesh_2"))
+    assert f"says {'/'.join(filter(None, unknown))!r} of 2 parts" in note.message
 
 
 def test_wrong_number_of_answers_is_an_error():

@@ -13,12 +13,14 @@ from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.labels import Guess, Label
 from cadgraph.model.parts import Contacts, Parts
 from cadgraph.model.probabilities import Probabilities
-from cadgraph.model.vocabulary import Vocabulary
+from cadgraph.model.vocabulary import Vocabulary, spell_label
 
 __all__ = ["LEAST_CONFIDENCE", "AskingLabeler", "Labeler", "Labeling", "Probabilities", "label_parts"]
 
 LEAST_CONFIDENCE = 0.5
 """Of a label, where neither the settings nor the labeler say."""
+
+_EXAMPLES = 20  # so many labels, and so many meshes of each, are named
 
 
 @dataclass(frozen=True, eq=False)
@@ -120,7 +122,7 @@ class AskingLabeler(Labeler, Protocol):
 def label_parts(
     labeler: Labeler | None, parts: Parts, contacts: Contacts, vocabulary: Vocabulary, config: LabelConfig
 ) -> Labeling:
-    """Asks a labeler; labels that the vocabulary does not hold are left out.
+    """Asks a labeler; labels that the vocabulary does not hold are left out (``unknown-label``).
 
     Args:
         labeler: None says nothing.
@@ -140,13 +142,31 @@ def label_parts(
     held = [answer if answer is not None and vocabulary.holds(*answer.said) else None for answer in said.answers]
     least = said.thresholds if config.min_confidence is None else config.min_confidence
     sure = said.sure if config.sure_confidence is None else config.sure_confidence
-    judged = Labeling.judge(held, least, said.probabilities, said.diagnostics, sure)
+    told = (*said.diagnostics, *_unknown(said.answers, held, parts))
+    judged = Labeling.judge(held, least, said.probabilities, told, sure)
     # What a labeler holds for possible without an answer of its own stays.
     guesses = tuple(
         known if answer is None else mine
         for answer, known, mine in zip(said.answers, said.guesses, judged.guesses, strict=True)
     )
     return replace(judged, guesses=guesses)
+
+
+def _unknown(said: Sequence[Label | None], held: Sequence[Label | None], parts: Parts) -> list[Diagnostic]:
+    """What is to be said of each label that was left out."""
+    left: dict[str, list[int]] = {}
+    for part, (answer, kept) in enumerate(zip(said, held, strict=True)):
+        if answer is not None and kept is None:
+            left.setdefault(spell_label(*answer.said), []).append(part)
+    return [
+        Diagnostic(
+            "unknown-label",
+            f"the labeler says {label!r} of {len(of)} part{'s'[: len(of) != 1]}, which the vocabulary doesn't hold: "
+            "left out; spell it as there, or add it to a vocabulary of your own",
+            tuple(parts.scene.paths[part] for part in of[:_EXAMPLES]),
+        )
+        for label, of in sorted(left.items())[:_EXAMPLES]
+    ]
 
 
 def _as_labeling(said: Labeling | Sequence[Label | None]) -> Labeling:
