@@ -344,6 +344,43 @@ def with_nozzles(*ports, closed=False, touching=()):
     return network([*parts, tank, *ends], [*touch, *edges])
 
 
+def guarded(tag, kind, *labels):
+    """A pump between valves, with a unit of these labels on a tap beside it."""
+    parts = [graphs.part(k, f"/m{k}", label=one) for k, one in enumerate(labels)]
+    nodes = [
+        unit("V-001", GATE), unit("V-002", GATE), unit("P-001"), terminal(1), terminal(2), junction(1),
+        unit(tag, kind).model_copy(update={"parts": tuple(part.id for part in parts)}), *parts,
+    ]  # fmt: skip
+    return network(nodes, [*chain("X1 V-001 P-001 J1 V-002 X2"), *chain(f"J1 {tag}")])
+
+
+VALVE_BEFORE = {"group": "Valve assembly", "name": "valve"}
+
+
+@pytest.mark.parametrize(
+    ("source", "before", "doubted"),
+    [("network", VALVE_BEFORE, True), ("network", None, False), ("geometry", None, False)],
+)
+def test_a_gauge_that_by_its_shape_was_something_else_is_a_doubt(source, before, doubted):
+    more = {} if before is None else {"before": before}
+    said = graphs.label("Gauge assembly", None, source=source, **more)
+    texts = [doubt.text for doubt in find_isolation(guarded("G-001", "pressure gauge", said), "P-001").doubts]
+    assert [text.startswith("taken for a pressure gauge because one line ends at it") for text in texts] == (
+        [True] if doubted else []
+    )
+
+
+@pytest.mark.parametrize(
+    ("operator", "source", "doubted"),
+    [("lever", "geometry", True), ("valve bonnet", "geometry", False), ("lever", "author", False)],
+)
+def test_a_relief_valve_with_a_lever_and_no_outlet_is_a_doubt(operator, source, doubted):
+    parts = [graphs.label(name=name, source=source) for name in ("valve body", operator)]
+    found = find_isolation(guarded("V-009", "relief valve", *parts), "P-001")
+    assert closed(found) == ["V-001", "V-002"]
+    assert [doubt.name for doubt in found.doubts] == (["V-009"] if doubted else [])
+
+
 def test_a_nozzle_without_a_line_is_a_doubt():
     (doubt,) = find_isolation(with_nozzles(0.2), "T-001").doubts
     assert doubt.text == "its nozzle part-2 has no line: what feeds it there can't be told"

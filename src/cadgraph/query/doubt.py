@@ -10,6 +10,7 @@ import numpy as np
 
 from cadgraph.model.ports import least_ports, port_word
 from cadgraph.model.records import Joint, Part, Port, Unit
+from cadgraph.query.against import Against, standing_against
 from cadgraph.query.network import Network
 
 __all__ = ["Doubt", "bare_nozzles", "few_ports", "likely_joints", "open_sides", "unconnected"]
@@ -23,6 +24,10 @@ _NOZZLE = frozenset({"nozzle", "flange", "gasket"})
 _CLOSURES = frozenset({"blind flange", "pipe cap"})
 _NEAR = 0.01  # [m]; so near to a nozzle a line that joins there begins, or nearer than a quarter of its bore
 
+_BY_PLACE = (
+    "taken for a {} because one line ends at it; by its shape alone it is something else, and maybe a valve to the open"
+)
+
 About = Literal["feeds", "follows"]
 
 
@@ -34,7 +39,7 @@ class Doubt:
         place: id of the unit, junction or terminal that it is at, or that the line there starts from.
         name: its tag.
         text: what it is, in words.
-        parts: ids of the two parts of a joint that was not made; empty for a unit that has too few lines.
+        parts: ids of the two parts that are not joined; empty for a unit that has too few lines.
         gap: between these [m], or None.
         score: how sure it is that they join, or None.
     """
@@ -57,13 +62,20 @@ def open_sides(network: Network, places: Collection[str], about: About = "follow
 
     Returns:
         Units that have fewer lines than their kind needs, in the order of the places; nozzles without a line, likewise;
-        then joints that were not made although they are likely, between a part of the piece and one outside, the
-        likeliest first.
+        gauges that are taken for some only because one line ends there; joints that were not made although they are
+        likely, between a part of the piece and one outside, the likeliest first; then what else stands against the
+        piece: units with too few lines, and ends of other lines.
     """
     short = [doubt for place in places if (doubt := _short(network, place, about)) is not None]
     told = {doubt.place for doubt in short}
     bare = [doubt for place in places if place not in told for doubt in _bare(network, place, about)]
-    return (*short, *bare, *_unjoined(network, places, about))
+    home = _home_of_parts(network, places)
+    unjoined = list(_unjoined(network, home, about))
+    joined = {network.owner_of_part(doubt.parts[1]) for doubt in unjoined}
+    against = [one for one in standing_against(network, home, places) if one.place not in joined]
+    guessed = [place for place in places if place not in told and _is_gauge_by_place(network, place)]
+    ends = [Doubt(place, network.name(place), _BY_PLACE.format(network.what(place))) for place in guessed]
+    return (*short, *bare, *ends, *unjoined, *(_stands_against(network, home, one, about) for one in against))
 
 
 def few_ports(network: Network, place: str) -> tuple[int, int] | None:
@@ -114,6 +126,17 @@ def likely_joints(network: Network) -> list[Joint]:
     """The joints that were not made although they are likely, the likeliest first."""
     found = [joint for joint in network.open_joints if joint.score >= _LIKELY]
     return sorted(found, key=lambda joint: (-joint.score, joint.first, joint.second, joint.point))
+
+
+def _is_gauge_by_place(network: Network, place: str) -> bool:
+    """Whether a gauge at the end of a line is one only because of where it stands: its shape said otherwise."""
+    node = network.places[place]
+    ends = len(network.arcs(place)) == 1 or network.stands_aside(place)
+    if not isinstance(node, Unit) or not network.is_gauge(place) or not ends:
+        return False
+    labels = [label for part in node.parts if (label := network.graph.part(part).label) is not None]
+    former = [label.evidence.before for label in labels if label.source == "network" and label.evidence is not None]
+    return len(former) == len(labels) and any(one is not None and one.group != labels[0].group for one in former)
 
 
 def _short(network: Network, place: str, about: About) -> Doubt | None:
@@ -169,8 +192,7 @@ def _lead(count: int) -> str:
     return "leads" if count == 1 else "lead"
 
 
-def _unjoined(network: Network, places: Collection[str], about: About) -> Iterator[Doubt]:
-    home = _home_of_parts(network, places)
+def _unjoined(network: Network, home: Mapping[str, str], about: About) -> Iterator[Doubt]:
     for joint in likely_joints(network):
         if (joint.first in home) == (joint.second in home):
             continue
@@ -186,6 +208,27 @@ def _faces(network: Network, joint: Joint, inner: str, outer: str) -> str:
     where = f"{network.name(beyond)} ({outer})" if beyond is not None else outer
     apart = f"{1000 * joint.gap:.1f} mm from" if joint.gap > 0 else "against"
     return f"{inner} lies {apart} {where} and is not joined to it ({joint.score:.0%} sure that it is)"
+
+
+def _stands_against(network: Network, home: Mapping[str, str], found: Against, about: About) -> Doubt:
+    place = home[found.inner]
+    unsaid = "what feeds it there" if about == "feeds" else "what follows there"
+    over = f" over {', '.join(found.over)}" if found.over else ""
+    text = f"{_outside(network, found)} {found.inner}{over} and nothing is known to join them: {unsaid} can't be told"
+    return Doubt(place, network.name(place), text, (found.inner, found.part))
+
+
+def _outside(network: Network, found: Against) -> str:
+    """What stands against a piece, in words."""
+    if found.place is None:
+        label = network.graph.part(found.part).label
+        return f"{found.part} (likely {label.name or label.group if label else 'a device'}), in no unit, stands against"
+    node = network.places[found.place]
+    if not isinstance(node, Unit):
+        return f"{network.what(found.place)} {network.name(found.place)} of another line lies at"
+    used, least = network.ports_in_use(found.place), least_ports(node.unit_type, node.kind)
+    few = f"only {_NUMBERS[used]}" if used else "none"
+    return f"{node.tag}, {few} of whose {_NUMBERS[least]} {port_word(node.unit_type)}s has a line, stands against"
 
 
 def _home_of_parts(network: Network, places: Iterable[str]) -> Mapping[str, str]:

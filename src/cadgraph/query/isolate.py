@@ -20,6 +20,13 @@ __all__ = ["Closing", "Isolation", "Opening", "Passed", "find_isolation"]
 PASSED_OVER = "is a check valve: passed over"
 
 
+_HAND_OPERATORS = frozenset({"lever", "handwheel"})
+_AS_RELIEF = (
+    "taken for a relief valve and so for closed, yet it has a lever or wheel and no line behind it: were it a hand "
+    "valve to the open, it would have to be closed, too"
+)
+
+
 @dataclass(frozen=True)
 class Closing:
     """A valve to close.
@@ -254,12 +261,30 @@ def _unknown(network: Network, place: str) -> str:
 
 
 def _assumed(network: Network, section: Section) -> list[Doubt]:
-    """The valves to close of which nobody knows whether they shut off."""
-    return [
+    """The valves to close of which nobody knows whether they shut off, and the relief valves that may be none."""
+    unknown = [
         Doubt(place, network.name(place), f"{_unknown(network, place)}; taken for a shut-off valve as asked")
         for place in section.nearest
         if place in section.needed and duty_of(network, place) == "unknown"
     ]
+    reliefs = [place for place in section.nearest if _is_closed_relief(network, section, place)]
+    doubted = [Doubt(place, network.name(place), _AS_RELIEF) for place in reliefs if _has_hand_operator(network, place)]
+    return [*unknown, *doubted]
+
+
+def _is_closed_relief(network: Network, section: Section, place: str) -> bool:
+    """Whether a section ends at a relief valve, which is taken for closed."""
+    ends = place in section.walls or network.stands_aside(place)
+    return ends and duty_of(network, place) == "relief"
+
+
+def _has_hand_operator(network: Network, place: str) -> bool:
+    """Whether a valve that only one line was found at is worked by hand, and nobody but the labeler says what it is."""
+    found = (network.graph.part(part).label for part in network.places[place].parts)
+    labels = [label for label in found if label is not None]
+    told = any(label.source in ("author", "human", "catalog", "repeat") for label in labels)
+    operated = any(label.name in _HAND_OPERATORS for label in labels)
+    return operated and not told and network.ports_in_use(place) < 2
 
 
 def _opening(network: Network, section: Section, place: str) -> Opening | None:
@@ -306,7 +331,7 @@ def _remarks(network: Network, section: Section, check_valves: bool) -> tuple[st
 def _remark(network: Network, section: Section, place: str, check_valves: bool) -> str | None:
     """What should be known about a node of the section or at its end, if anything."""
     duty, arc = duty_of(network, place), section.reached[place].arc
-    if duty == "relief" and (place in section.walls or network.stands_aside(place)):
+    if _is_closed_relief(network, section, place):
         return "is a relief valve: taken for closed, not to be blocked"
     if place in section.walls or place in section.needed:
         if few_ports(network, place) is not None:

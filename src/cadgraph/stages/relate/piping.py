@@ -13,7 +13,7 @@ from cadgraph.facts.statements import Statements
 from cadgraph.geometry.line.centreline import Centreline
 from cadgraph.model.analysis import Analysis
 from cadgraph.model.labels import Label
-from cadgraph.model.parts import Contacts, Parts
+from cadgraph.model.parts import Contacts, Joint, Parts
 from cadgraph.model.probabilities import Probabilities
 from cadgraph.model.scene import Ints
 from cadgraph.model.stated import resolve_links
@@ -131,6 +131,8 @@ class Piping:
         feet: parts of gauges, which may sit on the side of a line.
         jackets: bodies around lines, insulation above all, which are neither line nor unit.
         recovered: parts that lie where a device or a fitting must be.
+        branches: parts that are set on the side of a line, whatever their labels.
+        open: joints that were not made between lines and what may be a branch of one.
     """
 
     given: RelateInput
@@ -142,6 +144,8 @@ class Piping:
     feet: frozenset[int]
     jackets: frozenset[int] = frozenset()
     recovered: Mapping[int, Recovered] = field(default_factory=dict)
+    branches: frozenset[int] = frozenset()
+    open: tuple[Joint, ...] = ()
 
     @cached_property
     def joints(self) -> Attachments:

@@ -79,7 +79,11 @@ def _doubtful_lines(piping: Piping, beliefs: Beliefs) -> set[int]:
             return _LEAST_PIPE
         return _LIKELY if len(piping.given.neighbors.get(part, ())) > 1 else _LEAST_END
 
-    return {part for part in piping.lines if beliefs.open[part] and connectors[part] < least(part)}
+    return {
+        part
+        for part in piping.lines
+        if beliefs.open[part] and part not in piping.branches and connectors[part] < least(part)
+    }
 
 
 def _likely_solids(piping: Piping, beliefs: Beliefs) -> set[int]:

@@ -30,6 +30,8 @@ def record_joints(
     """
     found = piping.joints
     joints = [*_made(found), *_twins(found), *_refused(found)]
+    taken = {*piping.lines, *piping.lineless, *(part for unit in units for part in unit.parts)}
+    joints += [joint for joint in piping.open if joint.first not in taken]
     for side in gauge_sides(found, units, piping.lines).values():
         why = ("no line ends at it, and it touches this one",)
         joints.append(Joint(side.solid, side.part, "side", _point(side.tap.point), side.tap.gap, SIDE_SCORE, True, why))

@@ -21,6 +21,7 @@ from cadgraph.stages.relate.line import is_disc, is_neck, is_plain_tube, is_stea
 from cadgraph.stages.relate.offer import Surroundings, offer_faces
 from cadgraph.stages.relate.piping import Group, Piping, RelateInput
 from cadgraph.stages.relate.role import Roles, likely_lines
+from cadgraph.stages.relate.stubbed import find_stubbed, likely_stubbed
 from cadgraph.stages.relate.unit import connected_groups
 
 __all__ = ["drop_shapeless", "trace_lines"]
@@ -58,11 +59,18 @@ def trace_lines(given: RelateInput, roles: Roles) -> Piping:
     connectors = _connectors(given, roles)
     others = likely_lines(roles, given.opinions, given.contacts, given.vocabulary, given.parts.ground.tolist())
     possible = _possible_lines(given, roles, _with_further_pieces(given, roles, others))
-    traced, copies = _distinct_lines(given, [*connectors, *possible.candidates(), *_tubes_of_units(given, roles)])
+    carrying = [*connectors, *possible.candidates()]
+    beside = likely_stubbed(given, roles, carrying)
+    candidates = [*carrying, *beside, *_tubes_of_units(given, roles)]
+    traced, copies = _distinct_lines(given, candidates)
     sure = {part: traced[part] for part in connectors if part in traced}
     jackets = _jackets(given, traced, sure)
     ratios = _without(_least_ratios(given, roles, possible, traced), jackets)
-    lines = _continued(_without(sure, jackets), ratios, traced, given.contacts, given.config.relate.bridge)
+    sure = _without(sure, jackets)
+    lines = _continued(sure, ratios, traced, given.contacts, given.config.relate.bridge)
+    stubbed = find_stubbed(given, roles, beside, _without(traced, jackets), lines)
+    if stubbed.lines:
+        lines = _continued({**lines, **stubbed.lines}, ratios, traced, given.contacts, given.config.relate.bridge)
     apart = copies | jackets | lines.keys()
     lineless = [part for part in connectors if part not in apart and given.cluster[part] >= 0]
     groups = connected_groups(given, roles, lines.keys() | jackets)
@@ -75,6 +83,8 @@ def trace_lines(given: RelateInput, roles: Roles) -> Piping:
         members=_parts_of(groups),
         feet=_parts_of(group for group in groups if group.unit_type == "gauge"),
         jackets=frozenset(jackets),
+        branches=frozenset(stubbed.lines),
+        open=stubbed.open,
     )
 
 

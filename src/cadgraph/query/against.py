@@ -1,0 +1,153 @@
+"""What stands against a piece of a network without being joined to it, and would be if a label were wrong.
+
+A valve welded onto the side of a pipe, a nozzle that got no label, a ring between a tank and its line that is taken for
+a clamp: the network has a gap there, and an answer about the piece would pass over what lies behind it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from cadgraph.model.ports import least_ports
+from cadgraph.model.records import Part, Terminal, Unit
+from cadgraph.query.network import Network
+
+__all__ = ["Against", "standing_against"]
+
+_STEPS = 3  # so many loose parts at most lead from a piece to what stands against it
+_NEAR = 0.005  # [m]; how far beyond its own radius an end lies from what it stands against at most
+_DEVICES = frozenset({"valve", "pump"})
+_BODIES = frozenset({None, "valve", "valve body", "pump", "pump casing"})
+_FASTENERS = frozenset({"bolt", "nut", "washer", "stud", "screw"})
+
+
+@dataclass(frozen=True)
+class Against:
+    """Something that stands against a piece of a network.
+
+    Args:
+        inner: id of the part of the piece.
+        over: ids of the loose parts that lie between, maybe none.
+        place: id of the unit or end outside; None where a part that is likely a valve or a pump is in none.
+        part: id of the part of it.
+    """
+
+    inner: str
+    over: tuple[str, ...]
+    place: str | None
+    part: str
+
+
+def standing_against(network: Network, home: Mapping[str, str], places: Collection[str]) -> list[Against]:
+    """The units with too few lines, and the ends of other lines, that stand against a piece of a network.
+
+    Args:
+        network: of a finished graph.
+        home: the parts of the piece, each with the node that it belongs to.
+        places: ids of the nodes of the piece.
+
+    Returns:
+        Each once, by the shortest way there, in the order of the parts.
+    """
+    return list(_Search(network, home, frozenset(places)).found())
+
+
+@dataclass(frozen=True)
+class _Search:
+    network: Network
+    home: Mapping[str, str]
+    places: frozenset[str]
+
+    @cached_property
+    def _functional(self) -> frozenset[str]:
+        """The groups of piping and of devices."""
+        trees = self.network.graph.vocabulary
+        return frozenset(name for name, tree in trees.items() if tree.get("connector") or tree.get("unit"))
+
+    @cached_property
+    def _carried(self) -> frozenset[str]:
+        """The parts that are in the network."""
+        network = self.network
+        along = {part for place in network.places for arc in network.arcs(place) for part in arc.via}
+        return frozenset(along.union(*(node.parts for node in network.places.values())))
+
+    @cached_property
+    def _ends_at(self) -> dict[str, list[Terminal]]:
+        """The ends outside that a part carries or lies against."""
+        found: dict[str, list[Terminal]] = {}
+        for place, node in self.network.places.items():
+            if isinstance(node, Terminal) and node.kind != "blind" and place not in self.places:
+                for part in {*node.parts, *(arc.via[0] for arc in self.network.arcs(place) if arc.via)}:
+                    found.setdefault(part, []).append(node)
+        return found
+
+    def found(self) -> Iterator[Against]:
+        told: set[str] = set()
+        seen, nodes = set(self.home), self.network.graph.nodes
+        front: list[tuple[str, str, tuple[str, ...]]] = [(part, part, ()) for part in sorted(self.home)]
+        while front:
+            onward = []
+            for here, inner, over in front:
+                before = nodes.get(here)
+                if not isinstance(before, Part):
+                    continue
+                for other in self.network.graph.neighbors(before):
+                    if other.id in seen:
+                        continue
+                    for place in self._stands(other, before):
+                        if place not in told:
+                            told.add(place)
+                            yield Against(inner, over, place, other.id)
+                    if not self._is_loose(other):
+                        continue
+                    seen.add(other.id)
+                    if self._is_device(other):
+                        yield Against(inner, over, None, other.id)
+                    elif len(over) < _STEPS:
+                        onward.append((other.id, inner, (*over, other.id)))
+            front = onward
+
+    def _is_loose(self, part: Part) -> bool:
+        """Whether a part is in no network and may belong into one: nobody is sure that it is something else."""
+        if part.ground or part.id in self._carried:
+            return False
+        label = part.label
+        if label is None or label.likely:
+            return label is None or label.name not in _FASTENERS or label.group in self._functional
+        return label.group in self._functional and label.name not in _FASTENERS
+
+    def _is_device(self, part: Part) -> bool:
+        """Whether a loose part is likely all of a valve or a pump, or its body."""
+        label = part.label
+        tree = self.network.graph.vocabulary.get(label.group, {}) if label is not None else {}
+        return label is not None and tree.get("unit") in _DEVICES and label.name in _BODIES
+
+    def _stands(self, part: Part, before: Part) -> Iterator[str]:
+        """What a part belongs to that the piece may go on in: a unit that lacks a line, or an end that lies here."""
+        owner = self.network.owner_of_part(part.id)
+        unit = self.network.places[owner] if owner is not None else None
+        if isinstance(unit, Unit) and unit.id not in self.places and self._lacks(unit):
+            yield unit.id
+        for end in self._ends_at.get(part.id, ()):
+            if _lies_at(self.network, end, before):
+                yield end.id
+
+    def _lacks(self, unit: Unit) -> bool:
+        """Whether a unit that no line joins to the piece has fewer lines than its kind needs; gauges end lines."""
+        network = self.network
+        if network.is_gauge(unit.id) or any(arc.end in self.places for arc in network.arcs(unit.id)):
+            return False
+        return network.ports_in_use(unit.id) < least_ports(unit.unit_type, unit.kind)
+
+
+def _lies_at(network: Network, end: Terminal, part: Part) -> bool:
+    """Whether an end lies in the box around a part, or its own radius from it."""
+    sizes = [arc.edge.diameter for arc in network.arcs(end.id) if arc.edge.diameter]
+    reach = 0.5 * max(sizes, default=0.0) + _NEAR
+    low, high = np.asarray(part.aabb)
+    point = np.asarray(end.point)
+    return bool((point >= low - reach).all() and (point <= high + reach).all())

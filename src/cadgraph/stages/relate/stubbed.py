@@ -1,0 +1,185 @@
+"""Pipes that are set on the side of a line, without a tee or an outlet, and that the labeler took for something else.
+
+A piece of tube that only stands on a pipe has nothing about it that tells a labeler a branch from a post. Geometry
+does: it is hollow, its axis meets that of the line, and nothing lies before its other end, as a floor or a plate lies
+under a post. Where it is not hollow, or stands where a post would, that stays open: a joint that was not made.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from cadgraph.geometry.line.centreline import Centreline
+from cadgraph.model.parts import Joint
+from cadgraph.stages.relate.cover import cover_of
+from cadgraph.stages.relate.joint import Ends, Tap, find_tap, gather_ends
+from cadgraph.stages.relate.line import is_steady
+from cadgraph.stages.relate.piping import FASTENERS, RelateInput
+from cadgraph.stages.relate.role import Roles
+
+__all__ = ["Stubbed", "find_stubbed", "likely_stubbed"]
+
+_REACH = 0.01  # greatest gap between the end of a branch and the wall that it is set on [m]
+_HOLLOW = 0.3  # least bore of a tube as share of its radius
+_DOWN, _LEVEL = 0.94, 0.05  # a post: how upright it is, and within what height of the lowest part it ends [m]
+# How sure it is that they join (ours): of a hollow tube that may be a post, and of a solid one.
+_TUBE, _SOLID = 0.3, 0.2
+_VESSELS = frozenset({"tank", "equipment"})
+
+
+@dataclass(frozen=True)
+class Stubbed:
+    """What stands on the sides of lines.
+
+    Args:
+        lines: of the parts that are branches.
+        open: of those that may be, the joint that was not made.
+    """
+
+    lines: Mapping[int, Centreline]
+    open: tuple[Joint, ...] = ()
+
+
+def likely_stubbed(given: RelateInput, roles: Roles, piping: Collection[int]) -> list[int]:
+    """The parts that only the labeler has named, if anybody, as neither piping nor a device, and that touch some.
+
+    Args:
+        given: what everything is found from.
+        roles: what each part does.
+        piping: parts that carry lines or may.
+    """
+    functional = given.vocabulary.connector_groups | given.vocabulary.unit_of_group.keys()
+    carrying = _vessels(given, roles).union(piping)
+    return [
+        part
+        for part, group in enumerate(roles.groups)
+        if group not in functional
+        and given.labels[part] is given.opinions[part]
+        and not given.parts.ground[part]
+        and roles.names[part] not in FASTENERS
+        and not carrying.isdisjoint(given.neighbors.get(part, ()))
+    ]
+
+
+def find_stubbed(
+    given: RelateInput,
+    roles: Roles,
+    candidates: Sequence[int],
+    traced: Mapping[int, Centreline],
+    lines: Mapping[int, Centreline],
+) -> Stubbed:
+    """The branches that are set on the side of a line.
+
+    Args:
+        given: what everything is found from.
+        roles: what each part does.
+        candidates: parts that may be some.
+        traced: line of each part that has one.
+        lines: of the parts that carry one already.
+    """
+    tubes = [part for part in candidates if part in traced and part not in lines and is_steady(traced[part])]
+    if not tubes:
+        return Stubbed({})
+    ends = gather_ends({part: traced[part] for part in tubes})
+    vessels = _vessels(given, roles)
+    found: dict[int, Centreline] = {}
+    doubts: list[Joint] = []
+    for part in tubes:
+        taps = _taps(given, part, ends, lines)
+        mounts = {} if taps else _mounts(given, part, ends, vessels)
+        near = [*taps, *mounts]
+        far = [row for row in ends.of_part.get(part, ()) if row not in near]
+        if not near or any(_stands(given, ends, row, lines) for row in far):
+            continue
+        hollow = bool((ends.bore[near] >= _HOLLOW * ends.radius[near]).all())
+        as_post = any(_ends_as_a_post(given, ends, row) for row in far)
+        if taps and hollow and not as_post:
+            found[part] = traced[part]
+        elif taps:
+            doubts += [_open(row, other, tap.gap, ends, hollow) for row, (other, tap) in taps.items()]
+        elif far and not as_post:
+            # Lugs, legs and rails are welded to vessels much as pipes are: none of them is taken for one.
+            doubts += [_open(row, other, None, ends, hollow) for row, other in mounts.items()]
+    return Stubbed(found, tuple(doubts))
+
+
+def _vessels(given: RelateInput, roles: Roles) -> frozenset[int]:
+    """The parts of tanks and of other equipment."""
+    unit_of = given.vocabulary.unit_of_group
+    return frozenset(part for part, group in enumerate(roles.groups) if group and unit_of.get(group) in _VESSELS)
+
+
+def _mounts(given: RelateInput, part: int, ends: Ends, vessels: Collection[int]) -> dict[int, int]:
+    """The ends of a part at the wall of a vessel, or inside as a dip tube's, each with that part of the vessel."""
+    near = [other for other in given.neighbors.get(part, ()) if other in vessels]
+    found: dict[int, int] = {}
+    for row in ends.of_part.get(part, ()):
+        walls = [
+            other
+            for other in near
+            if _reaches_in(given, part, ends, row, other) or cover_of(given.parts, [other], ends, row) is not None
+        ]
+        if walls:
+            found[row] = walls[0]
+    return found
+
+
+def _reaches_in(given: RelateInput, part: int, ends: Ends, row: int, vessel: int) -> bool:
+    """Whether an end lies in the box around a vessel and another one of the same part outside of it."""
+    low, high = given.parts.properties.aabb[vessel]
+    points = ends.point[list(ends.of_part[part])]
+    outside = ((points < low - _REACH) | (points > high + _REACH)).any()
+    return bool((ends.point[row] > low).all() and (ends.point[row] < high).all() and outside)
+
+
+def _taps(given: RelateInput, part: int, ends: Ends, lines: Mapping[int, Centreline]) -> dict[int, tuple[int, Tap]]:
+    """The ends of a part that are set on the side of a line, each with that line's part and where on it."""
+    found: dict[int, tuple[int, Tap]] = {}
+    for row in ends.of_part.get(part, ()):
+        on = [
+            (other, tap)
+            for other in given.neighbors.get(part, ())
+            if other in lines and (tap := find_tap(ends, row, lines[other], _REACH)) is not None and not tap.sleeve
+        ]
+        if on:
+            found[row] = min(on, key=lambda one: (one[1].gap, one[0]))
+    return found
+
+
+def _stands(given: RelateInput, ends: Ends, row: int, lines: Collection[int]) -> bool:
+    """Whether an end stands on something, or something closes it."""
+    part, ground = int(ends.part[row]), given.parts.ground
+    near = [other for other in given.neighbors.get(part, ()) if other not in lines and _is_at(given, ends, row, other)]
+    return any(ground[other] for other in near) or cover_of(given.parts, near, ends, row) is not None
+
+
+def _is_at(given: RelateInput, ends: Ends, row: int, other: int) -> bool:
+    low, high = given.parts.properties.aabb[other]
+    reach = float(ends.radius[row]) + _REACH
+    return bool((ends.point[row] >= low - reach).all() and (ends.point[row] <= high + reach).all())
+
+
+def _ends_as_a_post(given: RelateInput, ends: Ends, row: int) -> bool:
+    """Whether an end looks down from as low as anything of its structure lies."""
+    part = int(ends.part[row])
+    if ends.direction[row, 2] > -_DOWN:
+        return False
+    boxes = given.parts.properties.aabb
+    same = np.flatnonzero((given.cluster == given.cluster[part]) & ~given.parts.ground)
+    others = same[same != part]
+    lowest = float(boxes[others, 0, 2].min(initial=np.inf))
+    return bool(ends.point[row, 2] <= lowest + _LEVEL)
+
+
+def _open(row: int, other: int, gap: float | None, ends: Ends, hollow: bool) -> Joint:
+    x, y, z = (float(value) for value in ends.point[row])
+    where = "it stands on the wall of the vessel" if gap is None else "it is set on the side of the line"
+    why = (where, "it is a hollow tube" if hollow else "it is round, and not seen to be hollow")
+    kind: Literal["tap", "mount"] = "mount" if gap is None else "tap"
+    return Joint(
+        int(ends.part[row]), other, kind, (x, y, z), gap or 0.0, _TUBE if hollow else _SOLID, made=False, reasons=why
+    )

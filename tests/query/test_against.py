@@ -1,0 +1,54 @@
+"""What stands against a section without being joined to it makes an answer doubtful."""
+
+import shapes
+from cadgraph.query import find_isolation
+from cadgraph.query.trace import trace
+from piping import FASTENER, PIPE, TANK, VALVE, Plant, R, pipe, turned, valve_mesh
+
+TANK_MESH = turned(shapes.cylinder(0.5, 2.0, 64), (0, 0, 1), (0, 0, 1))
+
+
+def tank_line():
+    """A tank, a pipe to a gate valve, and an open pipe behind it."""
+    plant = Plant().add(TANK_MESH, TANK, "tank").pipe((0.5, 0, 1), (1.5, 0, 1))
+    return plant.add(valve_mesh((1.589, 0, 1)), VALVE, "valve").pipe((1.678, 0, 1), (2.5, 0, 1))
+
+
+def doubts(plant, **settings):
+    graph = plant.graph(**settings)
+    return [doubt.text for doubt in find_isolation(graph, "T-001", assume_shutoff=True).doubts if "stands" in doubt.text
+            or "lies at" in doubt.text]  # fmt: skip
+
+
+def test_a_line_of_its_own_casts_no_doubt():
+    assert doubts(tank_line()) == []
+
+
+def test_a_valve_without_a_line_that_stands_against_a_pipe_of_the_section():
+    plant = tank_line().add(turned(shapes.cylinder(0.02, 0.12), (1, 0, 1 + R + 0.06), (0, 0, 1)), VALVE, "valve")
+    (text,) = doubts(plant)
+    assert "none of whose two ports has a line, stands against part-" in text
+
+
+def test_a_valve_over_a_piece_that_has_no_label():
+    plant = tank_line().add(turned(shapes.box((0.04, 0.04, 0.1)), (0, 0, 2.05), (0, 0, 1)), None)
+    plant.add(turned(valve_mesh((0, 0, 0)), (0, 0, 2.189), (1, 0, 0)), VALVE, "valve")
+    plant.add(pipe((0, 0, 2.278), (0, 0, 2.6)), PIPE, "pipe")
+    (text,) = doubts(plant)
+    assert "only one of whose two ports has a line, stands against" in text
+    assert " over part-" in text
+    found = trace(plant.graph(), "T-001", "downstream")
+    assert any("stands against" in doubt.text for doubt in found.doubts)
+
+
+def test_the_end_of_another_line_inside_the_tank():
+    plant = tank_line().pipe((0, 0, 1.5), (0, 0, 2.6))
+    (text,) = doubts(plant)
+    assert text.startswith("open end terminal-")
+    assert "of another line lies at part-" in text
+
+
+def test_a_bolt_leads_nowhere():
+    plant = tank_line().add(shapes.box((0.02, 0.02, 0.06), (1, 0, 1 + R + 0.03)), FASTENER, "bolt")
+    plant.add(turned(shapes.cylinder(0.02, 0.12), (1, 0, 1 + R + 0.12), (0, 0, 1)), VALVE, "valve")
+    assert doubts(plant) == []
