@@ -7,7 +7,7 @@ or physics that the flow can't turn round.
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import MappingProxyType
 
 import numpy as np
@@ -141,12 +141,33 @@ def pumps(sight: Sight) -> Iterator[Evidence]:
     for number, unit in sight.units("pump"):
         if len(unit.openings) < 2:
             continue
-        found = _suction(unit, _shaft(unit, sight.parts))
+        found = _suction(_as_wide_as_lines(sight, number, unit), _shaft(unit, sight.parts))
         if found is None:
             continue
         suction, discharge, sure, why = found
         yield from _flowing(sight, number, suction, False, sure, f"suction of {unit.tag} ({why})")
         yield from _flowing(sight, number, discharge, True, sure, f"discharge of {unit.tag} (its suction is {why})")
+
+
+def _as_wide_as_lines(sight: Sight, number: int, unit: UnitParts) -> UnitParts:
+    """A pump whose openings are alike where the lines at them are of one nominal size.
+
+    What joins first may be a gasket on one side and a bare pipe on the other, whose diameters tell nothing of nozzles.
+    """
+    sizes = [_size_at(sight, number, port) for port in range(len(unit.openings))]
+    if None in sizes or len(set(sizes)) > 1:
+        return unit
+    return replace(unit, openings=tuple(replace(opening, diameter=None) for opening in unit.openings))
+
+
+def _size_at(sight: Sight, number: int, port: int) -> int | None:
+    """The nominal size with which the line at an opening begins, None where it is unknown."""
+    found = {
+        link.sizes[0 if forward else -1]
+        for k, forward in sight.at_port(number, port)
+        if (link := sight.network.links[k]).sizes
+    }
+    return found.pop() if len(found) == 1 else None
 
 
 def _shaft(unit: UnitParts, parts: Parts) -> Floats | None:
