@@ -1,5 +1,7 @@
 """What shows a direction, and what is too weak to show one: each side of each limit."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -25,8 +27,10 @@ def told(source, found, parts, names):
     return said
 
 
-def pump(first, second, mesh=MOTOR):
+def pump(first, second, mesh=MOTOR, sizes=((), ())):
     found = network("P1 X1", "P1 X2", openings={"P1": [first, second]}, parts={"P1": (0,)})
+    links = [replace(link, sizes=own) for link, own in zip(found.links, sizes, strict=True)]
+    found = replace(found, links=tuple(links))
     return told(flow_sources.pumps, found, parts_of(mesh), ["pump"])
 
 
@@ -75,6 +79,13 @@ def test_in_line_nozzles_say_nothing_but_by_their_widths():
     assert pump(opening((-0.2, 0, 0), BACK), opening((0.2, 0, 0), X), upright) == {}
     said = pump(opening((-0.2, 0, 0), BACK, 0.08), opening((0.2, 0, 0), X, 0.1), upright)
     assert said == {"P1 X1": SURE["pump, widths"], "X2 P1": SURE["pump, widths"]}
+
+
+@pytest.mark.parametrize(("sizes", "told"), [(((50,), (50,)), 0), (((50,), (80, 50)), 2), (((50,), ()), 2)])
+def test_a_gasket_at_one_nozzle_makes_it_no_wider_where_both_lines_are_of_one_size(sizes, told):
+    upright = turned(shapes.cylinder(0.1, 0.8), ORIGIN, UP)
+    said = pump(opening((-0.2, 0, 0), BACK, 0.06), opening((0.2, 0, 0), X, 0.11), upright, sizes)
+    assert len(said) == told
 
 
 def test_a_wider_level_nozzle_draws_and_one_that_looks_up_delivers():
