@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from cadgraph.export.tables import table_bytes
 from cadgraph.query import find_lines
-from cadgraph.query.text import line_rows, line_table
+from cadgraph.query.text import line_rows, line_table, line_values
 from networks import chain, junction, network, pumping, terminal, unit
 
 
@@ -45,6 +45,10 @@ def test_the_tap_of_a_gauge_does_not_divide_a_line_and_is_named_at_its_place():
     edges = chain("X1 V-001 J1 V-003 X2") + chain("J1 V-002 G-001", 15, 0.2, "unknown")
     (line,) = find_lines(network(nodes, edges))
     assert line.through_names == ("V-001", "V-002", "G-001", "V-003")
+    # What flows passes the root valve of the gauge by.
+    assert line.through_words == ("V-001", "(V-002)", "G-001", "V-003")
+    assert line_values(line)["beside"] == ["V-002"]
+    assert "in brackets: valves beside the line, on a tap" in line_table([line])[-1]
     assert line.length == pytest.approx(4.0)
     assert line.sizes == (80,)
 

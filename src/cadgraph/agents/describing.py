@@ -236,7 +236,7 @@ def _line_rows(line: Line) -> list[tuple[str, str]]:
         ("DN", line.size or "unknown"),
         ("flow", f"{flow.get(line.flow, f'direction {line.flow}')}{reasons}"),
         ("system", line.system or "none"),
-        *_pieces("through", list(line.through_names)),
+        *_pieces("through", list(line.through_words)),
     ]
 
 

@@ -352,7 +352,7 @@ def lines(
     known = sum(line.length or 0.0 for line in found)
     head = [
         f"{_count(len(found), 'line')}, {_metres(known, all(line.whole for line in found))}; flow: "
-        "-> known, ? unknown, -- to a blind end, >< contradictory",
+        "-> known, ? unknown, -- to a blind end, >< contradictory; in brackets: valves beside the line, on a tap",
         row("line", "from", "flow", "to", "length", "DN", "system", "through"),
     ]
     foot = [] if through or system else [f"note: {cell(text, 300)}" for text in gap_lines(plant.network)[:-1]]
@@ -366,7 +366,7 @@ def _line_rows(line: Line) -> Iterator[str]:
         f"{cell(name)}:{cell(port, 20)}" if port else name
         for name, port in ((line.start_name, line.start_port), (line.end_name, line.end_port))
     ]
-    first, *more = list(_joined(line.through_names)) or [""]
+    first, *more = list(_joined(line.through_words)) or [""]
     cells = [line.tag, cell(ends[0], 120), _FLOWS[line.flow], cell(ends[1], 120), length, line.size or "?"]
     yield "\t".join((*cells, cell(line.system), first)).rstrip("\t")
     yield from (f"{line.tag} goes on through\t{piece}" for piece in more)

@@ -38,6 +38,7 @@ class Line:
         end_port: nozzle at the end.
         through: ids of what stands in it, in order from the start; instruments on taps at their place.
         through_names: their tags.
+        beside: ids of the valves among them that stand on a tap or on the side of the line: what flows passes them by.
         length: along the centreline [m]; None where no part of it is known.
         whole: False where a part of the length is unknown.
         sizes: nominal sizes (DN) in order from the start, each change once.
@@ -58,6 +59,7 @@ class Line:
     end_port: str | None
     through: tuple[str, ...]
     through_names: tuple[str, ...]
+    beside: tuple[str, ...]
     length: float | None
     whole: bool
     sizes: tuple[int, ...]
@@ -67,6 +69,12 @@ class Line:
     confidence: float | None
     system: str | None
     arcs: tuple[Arc, ...]
+
+    @property
+    def through_words(self) -> tuple[str, ...]:
+        """The tags of what stands in it, in brackets those of valves beside it: ``(V-001)``."""
+        named = zip(self.through, self.through_names, strict=True)
+        return tuple(f"({name})" if place in self.beside else name for place, name in named)
 
     @property
     def size(self) -> str:
@@ -201,6 +209,12 @@ def _line(network: Network, tag: str, run: list[Arc]) -> Line:
         through.append(arc.end)
         through.extend(network.instruments(arc.end))
     through = [place for place in through if isinstance(network.places[place], Unit)]
+    within = {arc.end for arc in run[:-1]}
+    beside = [
+        place
+        for place in through
+        if network.unit_type(place) == "valve" and (place not in within or network.stands_aside(place))
+    ]
     lengths = [arc.length for arc in run]
     known = [length for length in lengths if length is not None]
     flows = {arc.flow for arc in run}
@@ -215,6 +229,7 @@ def _line(network: Network, tag: str, run: list[Arc]) -> Line:
         end_port=run[-1].end_port,
         through=tuple(through),
         through_names=tuple(network.name(place) for place in through),
+        beside=tuple(beside),
         length=sum(known) if known else None,
         whole=len(known) == len(lengths),
         sizes=tuple(_changes(size for arc in run for size in arc.sizes)),

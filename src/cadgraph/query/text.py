@@ -62,7 +62,7 @@ def line_table(lines: Sequence[Line]) -> list[str]:
         start = f"{line.start_name}:{line.start_port}" if line.start_port else line.start_name
         end = f"{line.end_name}:{line.end_port}" if line.end_port else line.end_name
         length = _metres(line.length, not line.whole) if line.length is not None else "?"
-        rows.append((line.tag, start, _FLOWS[line.flow], end, length, line.size or "?", " ".join(line.through_names)))
+        rows.append((line.tag, start, _FLOWS[line.flow], end, length, line.size or "?", " ".join(line.through_words)))
     total = sum(line.length or 0.0 for line in lines)
     some = any(not line.whole for line in lines)
     unknown = sum(line.flow == "unknown" for line in lines)
@@ -70,6 +70,7 @@ def line_table(lines: Sequence[Line]) -> list[str]:
     told = [f"{len(lines)} line{'s' * (len(lines) != 1)}, {_metres(total, some)}"]
     told += [f"direction unknown (?) in {unknown}"] * bool(unknown)
     told += [f"contradictory (><) in {contradictory}"] * bool(contradictory)
+    told += ["in brackets: valves beside the line, on a tap"] * any(line.beside for line in lines)
     return [*aligned(rows, right=(4, 5)), "", ", ".join(told)]
 
 
@@ -105,6 +106,7 @@ def line_values(line: Line) -> dict[str, Any]:
         "to": line.end_name,
         "to_port": line.end_port,
         "through": list(line.through_names),
+        "beside": [name for place, name in zip(line.through, line.through_names, strict=True) if place in line.beside],
         "length_m": None if line.length is None else round(line.length, 6),
         "length_complete": line.whole,
         "dn": list(line.sizes),

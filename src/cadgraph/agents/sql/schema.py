@@ -108,7 +108,7 @@ TABLES: Mapping[str, Table] = {
             "tag": ("TEXT", "stable name"),
             "first": ("TEXT", "name of the point that it starts at, upstream where that is known"),
             "last": ("TEXT", "name of the point that it ends at"),
-            "through": ("TEXT", "tags of what stands in it, in order"),
+            "through": ("TEXT", "tags of what stands in it, in order, taps at their place"),
             "length": ("REAL", "along the centreline [m]; null where not known"),
             "whole": ("INTEGER", "0 where a part of the length is unknown, so that it is a lower bound"),
             "sizes": ("TEXT", "nominal sizes (DN) in order: 80 or 80/50"),

@@ -180,7 +180,7 @@ def line_table(graph: SceneGraph) -> Table:
             Cell(line.start_name),
             Cell(flows[line.flow]),
             Cell(line.end_name),
-            Cell(" ".join(line.through_names)),
+            Cell(" ".join(line.through_words)),
             _blank() if line.length is None else _length(line.length),
             Cell(line.size, str(line.sizes[0]) if line.sizes else "-1"),
         )
