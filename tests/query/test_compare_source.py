@@ -170,6 +170,8 @@ def test_what_cannot_be_compared_is_listed_and_never_dropped():
     lost = [said("V-001", "x", lost="x"), said("x", "V-002", lost="x")]
     graph = plant(via("V-001 V-002", "a"), [*lost, several, above, *ways("a b"), *ways("V-001 z")], pipes="a b z")
     found = compare_source(graph)
+    assert (found.agrees, found.complete) == (True, False)
+    assert "what could be compared agrees" in found.verdict
     assert found.uncompared == (
         Uncompared("/p", "it is several units: V-001, V-002"),
         Uncompared("/p/b", "no line of the graph leads through it"),

@@ -115,6 +115,24 @@ class SourceComparison:
         """Whether nothing differs, as far as both can be compared."""
         return not self.only_ours and not self.only_theirs and not self.directions("differ")
 
+    @property
+    def complete(self) -> bool:
+        """Whether all that the source joins has a place in the graph, so that nothing of it was left uncompared."""
+        return not self.uncompared
+
+    @property
+    def verdict(self) -> str:
+        """The outcome in one line."""
+        if not self.agrees:
+            return "the graph and its source differ"
+        if self.complete:
+            return "the graph and its source agree"
+        n = len(self.uncompared)
+        lack, joins = (
+            ("1 element of the source has", "it joins") if n == 1 else (f"{n} elements of the source have", "they join")
+        )
+        return f"what could be compared agrees; {lack} no place in the graph, and what {joins} is missing there"
+
     def directions(self, verdict: Verdict) -> tuple[WayOfFlow, ...]:
         """The pairs on whose flow both agree or differ, of which only one side says one, or neither."""
         return tuple(way for way in self.flows if _verdict(way) == verdict)

@@ -53,7 +53,7 @@ def source_lines(found: SourceComparison, *, most: int = 20) -> list[str]:
         told += _listed([", ".join(found.silent[at : at + 12]) for at in range(0, len(found.silent), 12)], most)
     if found.used:
         told.append("note: the graph was made with the source's links as evidence (relate.use_metadata)")
-    return [*told, "", "the graph and its source agree" if found.agrees else "the graph and its source differ"]
+    return [*told, "", found.verdict]
 
 
 def source_values(found: SourceComparison) -> dict[str, Any]:
@@ -63,6 +63,7 @@ def source_values(found: SourceComparison) -> dict[str, Any]:
         "links_within_devices": found.within,
         "links_used_as_evidence": found.used,
         "agrees": found.agrees if found.links else None,
+        "complete": found.complete if found.links else None,
         "connections": {
             "agree": [_claim(claim) for claim in found.agreeing],
             "only_in_graph": [_claim(claim) for claim in found.only_ours],
