@@ -203,18 +203,19 @@ def _place_key(network: Network, run: list[Arc]) -> str:
     return "|".join(sorted(ends))
 
 
+def _beside(network: Network, run: list[Arc], through: list[str]) -> tuple[str, ...]:
+    """The valves of a run that stand on a tap, or on its side."""
+    within = {arc.end for arc in run[:-1]}
+    valves = [place for place in through if network.unit_type(place) == "valve"]
+    return tuple(place for place in valves if place not in within or network.stands_aside(place))
+
+
 def _line(network: Network, tag: str, run: list[Arc]) -> Line:
     through = [*network.instruments(run[0].start)] if _carries_start(network, run) else []
     for arc in run[:-1]:
         through.append(arc.end)
         through.extend(network.instruments(arc.end))
     through = [place for place in through if isinstance(network.places[place], Unit)]
-    within = {arc.end for arc in run[:-1]}
-    beside = [
-        place
-        for place in through
-        if network.unit_type(place) == "valve" and (place not in within or network.stands_aside(place))
-    ]
     lengths = [arc.length for arc in run]
     known = [length for length in lengths if length is not None]
     flows = {arc.flow for arc in run}
@@ -229,7 +230,7 @@ def _line(network: Network, tag: str, run: list[Arc]) -> Line:
         end_port=run[-1].end_port,
         through=tuple(through),
         through_names=tuple(network.name(place) for place in through),
-        beside=tuple(beside),
+        beside=_beside(network, run, through),
         length=sum(known) if known else None,
         whole=len(known) == len(lengths),
         sizes=tuple(_changes(size for arc in run for size in arc.sizes)),

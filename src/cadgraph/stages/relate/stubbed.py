@@ -7,7 +7,7 @@ under a post. Where it is not hollow, or stands where a post would, that stays o
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -81,30 +81,78 @@ def find_stubbed(
         traced: line of each part that has one.
         lines: of the parts that carry one already.
     """
-    tubes = [part for part in candidates if part in traced and part not in lines and is_steady(traced[part])]
+    tubes = _tubes(candidates, traced, lines)
     if not tubes:
         return Stubbed({})
-    ends = gather_ends({part: traced[part] for part in tubes})
-    vessels = _vessels(given, roles)
-    found: dict[int, Centreline] = {}
-    doubts: list[Joint] = []
-    for part in tubes:
-        taps = _taps(given, part, ends, lines)
-        mounts = {} if taps else _mounts(given, part, ends, vessels)
-        near = [*taps, *mounts]
-        far = [row for row in ends.of_part.get(part, ()) if row not in near]
-        if not near or any(_stands(given, ends, row, lines) for row in far):
-            continue
-        hollow = bool((ends.bore[near] >= _HOLLOW * ends.radius[near]).all())
-        as_post = any(_ends_as_a_post(given, ends, row) for row in far)
-        if taps and hollow and not as_post:
-            found[part] = traced[part]
-        elif taps:
-            doubts += [_open(row, other, tap.gap, ends, hollow) for row, (other, tap) in taps.items()]
-        elif far and not as_post:
-            # Lugs, legs and rails are welded to vessels much as pipes are: none of them is taken for one.
-            doubts += [_open(row, other, None, ends, hollow) for row, other in mounts.items()]
-    return Stubbed(found, tuple(doubts))
+    sight = _Sight(given, gather_ends({part: traced[part] for part in tubes}), lines, _vessels(given, roles))
+    found = [part for part in tubes if sight.is_branch(part)]
+    doubts = [joint for part in tubes if part not in found for joint in sight.open_joints(part)]
+    return Stubbed({part: traced[part] for part in found}, tuple(doubts))
+
+
+def _tubes(candidates: Sequence[int], traced: Mapping[int, Centreline], lines: Collection[int]) -> list[int]:
+    """The candidates with a line of one radius that is not one of the network already."""
+    return [part for part in candidates if part in traced and part not in lines and is_steady(traced[part])]
+
+
+@dataclass(frozen=True, eq=False)
+class _Sight:
+    """What is looked at.
+
+    Args:
+        given: what everything is found from.
+        ends: of the tubes that may be branches.
+        lines: of the parts that carry one already.
+        vessels: parts of tanks and of other equipment.
+    """
+
+    given: RelateInput
+    ends: Ends
+    lines: Mapping[int, Centreline]
+    vessels: frozenset[int]
+
+    def is_branch(self, part: int) -> bool:
+        """Whether a hollow tube is set on the side of a line, and nothing stops it at its other end."""
+        taps = self._taps(part)
+        if not taps or not self._are_hollow([*taps]):
+            return False
+        far = self._others(part, taps)
+        return not self._stands(far) and not self._is_post(far)
+
+    def open_joints(self, part: int) -> Iterator[Joint]:
+        """The joints that were not made with what may be a branch."""
+        taps = self._taps(part)
+        yield from self._open_taps(part, taps) if taps else self._open_mounts(part)
+
+    def _open_taps(self, part: int, taps: Mapping[int, tuple[int, Tap]]) -> Iterator[Joint]:
+        if self._stands(self._others(part, taps)):
+            return
+        for row, (other, tap) in taps.items():
+            yield _open(row, other, tap.gap, self.ends, self._are_hollow([*taps]))
+
+    def _open_mounts(self, part: int) -> Iterator[Joint]:
+        mounts = _mounts(self.given, part, self.ends, self.vessels)
+        far = self._others(part, mounts)
+        # Lugs, legs and rails are welded to vessels much as pipes are: none of them is taken for one.
+        if not mounts or not far or self._stands(far) or self._is_post(far):
+            return
+        for row, vessel in mounts.items():
+            yield _open(row, vessel, None, self.ends, self._are_hollow([*mounts]))
+
+    def _taps(self, part: int) -> dict[int, tuple[int, Tap]]:
+        return _taps(self.given, part, self.ends, self.lines)
+
+    def _others(self, part: int, rows: Collection[int]) -> list[int]:
+        return [row for row in self.ends.of_part.get(part, ()) if row not in rows]
+
+    def _are_hollow(self, rows: list[int]) -> bool:
+        return bool((self.ends.bore[rows] >= _HOLLOW * self.ends.radius[rows]).all())
+
+    def _stands(self, rows: Sequence[int]) -> bool:
+        return any(_stands(self.given, self.ends, row, self.lines) for row in rows)
+
+    def _is_post(self, rows: Sequence[int]) -> bool:
+        return any(_ends_as_a_post(self.given, self.ends, row) for row in rows)
 
 
 def _vessels(given: RelateInput, roles: Roles) -> frozenset[int]:
