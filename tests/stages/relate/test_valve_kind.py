@@ -233,6 +233,8 @@ def disc(radius, height, thick=0.01):
         ((STEM, disc(0.1, 0.23, 0.06)), None),
         ((STEM, disc(0.1, 0.2), disc(0.09, 0.25)), None),
         ((STEM, shapes.box((0.2, 0.03, 0.01), (0.18, 0, 0.24))), "lever"),
+        # On the leg of a strainer, say, which goes on above it.
+        ((STEM, shapes.box((0.2, 0.03, 0.01), (0.18, 0, 0.15))), None),
         ((STEM, shapes.box((0.2, 0.03, 0.01), (0.1, 0, 0.24))), None),
         ((STEM, shapes.box((0.2, 0.12, 0.01), (0.18, 0, 0.24))), None),
         ((disc(0.055, 0.1, 0.03),), "lid"),

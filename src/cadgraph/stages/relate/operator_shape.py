@@ -24,6 +24,8 @@ _ROUND, _OVERHANGS, _WIDE, _FLAT, _RIM = 0.8, 1.7, 1.8, 0.105, 0.5
 _UPPER, _ABOVE = 0.5, 0.6
 # A lever is long against the ends' radius, and against its own width; most of it is on one side of its stem.
 _LONG, _SLENDER, _ONE_SIDED, _THIN = 1.3, 0.4, 0.2, 0.35
+# It is above this share of what stands there: the lever of a small cock on the leg of a strainer is amid it.
+_HIGH = 0.6
 # A lid is low, broad, round, and carries nothing that is narrower than this against it.
 _LOW, _BROAD, _CROWN = 1.6, 0.9, 0.28
 # Which way something stands is where most of the surface reaches: all of it, else what is no farther from the line than
@@ -137,7 +139,7 @@ def _has_lever(slices: list[_Slice]) -> bool:
     levers = [
         k for k in _overhanging(slices) if slices[k].most >= _LONG and slices[k].least <= _SLENDER * slices[k].most
     ]
-    if not levers or len(levers) > _THIN * len(slices):
+    if not levers or len(levers) > _THIN * len(slices) or levers[0] < _HIGH * len(slices):
         return False
     carrier = min(slices[: levers[0]], key=lambda one: one.most)
     longest = max((slices[k] for k in levers), key=lambda one: one.most)
