@@ -19,6 +19,7 @@ from cadgraph.errors import AskError
 from networks import pumping
 
 SHORT = 0.4  # s; that queries may take in most tests here
+SLACK = 5.0  # s; a busy machine is slow, a query that nothing stops takes for ever
 N_UNITS = 26
 COUNT = "SELECT count(*) FROM unit"
 SERIES = "WITH RECURSIVE r(n) AS (SELECT 1 UNION ALL SELECT n + 1 FROM r WHERE n < {}) "
@@ -147,7 +148,7 @@ def test_what_does_anything_but_read_the_tables_is_refused_and_the_next_query_wo
     began = time.monotonic()
     with pytest.raises(AskError) as refused:
         database.ask(REFUSED[name])
-    assert time.monotonic() - began < SHORT + 0.5
+    assert time.monotonic() - began < SHORT + SLACK
     assert SECRET not in str(refused.value)
     assert "\n" not in str(refused.value)
     still_sound(database, bare)
@@ -160,7 +161,7 @@ def test_what_takes_too_much_is_stopped_and_the_next_query_works(rows, bare, nam
     began = time.monotonic()
     with pytest.raises(Stopped, match="stopped after|memory" if name in STOPPED else "memory"):
         database.ask((STOPPED | FULL)[name] + " -- ")
-    assert time.monotonic() - began < database.seconds + 0.5
+    assert time.monotonic() - began < database.seconds + SLACK
     still_sound(database, bare)
     database.close()
 
@@ -273,6 +274,6 @@ def test_whatever_is_asked_ends_in_rows_or_in_one_line(database, sql):
     except AskError as error:
         said = str(error)
     assert "\n" not in said
-    assert time.monotonic() - began < SHORT + 0.5
+    assert time.monotonic() - began < SHORT + SLACK
     assert database.ask(COUNT).rows == ((N_UNITS,),)
     assert set(os.listdir(".")) == before

@@ -25,7 +25,10 @@ def run(capsys, *arguments):
 def test_lines_prints_the_list_with_its_sum(folder, capsys):
     code, out, _ = run(capsys, "lines", folder)
     assert code == 0
-    assert out.splitlines()[-1] == "16 lines, 37.47 m, direction unknown (?) in 4"
+    assert (
+        out.splitlines()[-1]
+        == "16 lines, 37.47 m, direction unknown (?) in 4, in brackets: valves beside the line, on a tap"
+    )
     assert any("T-001:N1" in row and "V-001" in row and "100" in row for row in out.splitlines())
 
 
