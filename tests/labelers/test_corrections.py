@@ -112,6 +112,18 @@ def test_parts_are_found_after_meshes_were_renamed_and_reordered():
     assert [found.find(one.anchor) for one in made] == [1, 0]
 
 
+def test_equal_parts_that_a_new_export_numbers_anew_are_found_by_their_place():
+    scene = scene_of(*[knobs.hook()] * 4)
+    made = correction(parts_of(scene), 2)
+    # The first of them is gone, so that each has the name of the one before; the last one's name is free again.
+    revised = replace(scene.select([1, 2, 3]), paths=("/mesh_0", "/mesh_1", "/mesh_2"))
+    assert anchored_parts(revised, parts_of(revised)).find(made.anchor) == 1
+    # Where nothing of its shape lies in its place, it has moved and kept its name.
+    moved = scene.select([0, 2])
+    gone = replace(moved.with_vertices(moved.vertices + [0.0, 5.0, 0.0]), paths=("/mesh_0", "/mesh_2"))
+    assert anchored_parts(gone, parts_of(gone)).find(made.anchor) == 1
+
+
 def test_a_correction_without_its_part_is_told_and_lays_hands_on_nothing():
     parts = parts_of(scene_of(knobs.knob()))
     labels, told = applied(scene_of(knobs.hook()), [correction(parts, 0)])

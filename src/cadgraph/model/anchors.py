@@ -1,4 +1,4 @@
-"""How a correction finds its part again in another export of a model: by path and shape, else by shape and place."""
+"""How a correction finds its part again in another export of a model: by shape and place, else by shape and path."""
 
 from __future__ import annotations
 
@@ -92,22 +92,30 @@ class Anchored:
     origin: Floats
 
     def find(self, anchor: Anchor) -> int | None:
-        """What an anchor means: that of its path if the shape agrees, else what of that shape lies there.
+        """What an anchor means: what of its shape lies in its place, that of its path first; else that of its path.
+
+        Place goes before path where both say otherwise: an export that numbers equal parts anew after one of them is
+        gone gives each the name of its neighbour, and none of them has moved.
 
         Returns:
             Its number; None where there is none.
         """
         here = self.row_of.get(anchor.mesh)
-        if here is not None and fingerprint_of(self.properties, here).agrees(anchor.fingerprint):
-            return here
+        if here is not None and not fingerprint_of(self.properties, here).agrees(anchor.fingerprint):
+            here = None
         place = np.asarray(anchor.centroid) - self.origin
+        if here is not None and self._apart(here, place) <= _PLACE:
+            return here
         alike = [
-            (float(np.linalg.norm(self.properties.centroid[row] - place)), row)
+            (self._apart(row, place), row)
             for row in self._of_count.get(anchor.fingerprint.n_triangles, ())
             if fingerprint_of(self.properties, row).agrees(anchor.fingerprint)
         ]
         far, nearest = min(alike, default=(np.inf, -1))
-        return nearest if far <= _PLACE else None
+        return nearest if far <= _PLACE else here
+
+    def _apart(self, row: int, place: Floats) -> float:
+        return float(np.linalg.norm(self.properties.centroid[row] - place))
 
     def find_all(self, anchors: Sequence[Anchor]) -> list[int]:
         """What anchors mean, each once; what is not there is left out."""
