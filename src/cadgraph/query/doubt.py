@@ -72,7 +72,8 @@ def open_sides(network: Network, places: Collection[str], about: About = "follow
     home = _home_of_parts(network, places)
     unjoined = list(_unjoined(network, home, about))
     joined = {network.owner_of_part(doubt.parts[1]) for doubt in unjoined}
-    against = [one for one in standing_against(network, home, places) if one.place not in joined]
+    found = standing_against(network, home, places)
+    against = [one for one in found if one.place is None or one.place not in joined]
     guessed = [place for place in places if place not in told and _is_gauge_by_place(network, place)]
     ends = [Doubt(place, network.name(place), _BY_PLACE.format(network.what(place))) for place in guessed]
     return (*short, *bare, *ends, *unjoined, *(_stands_against(network, home, one, about) for one in against))
