@@ -120,7 +120,7 @@ def test_equal_parts_that_a_new_export_numbers_anew_are_found_by_their_place():
     assert anchored_parts(revised, parts_of(revised)).find(made.anchor) == 1
     # Where nothing of its shape lies in its place, it has moved and kept its name.
     moved = scene.select([0, 2])
-    gone = replace(moved.with_vertices(moved.vertices + [0.0, 5.0, 0.0]), paths=("/mesh_0", "/mesh_2"))
+    gone = replace(moved.with_vertices(moved.vertices + np.array([0.0, 5.0, 0.0])), paths=("/mesh_0", "/mesh_2"))
     assert anchored_parts(gone, parts_of(gone)).find(made.anchor) == 1
 
 
