@@ -14,6 +14,7 @@ import numpy as np
 
 from cadgraph.model.ports import least_ports
 from cadgraph.model.records import Part, Terminal, Unit
+from cadgraph.model.vocabulary import FASTENERS
 from cadgraph.query.network import Network
 
 __all__ = ["Against", "standing_against"]
@@ -22,7 +23,6 @@ _STEPS = 3  # so many loose parts at most lead from a piece to what stands again
 _NEAR = 0.005  # [m]; how far beyond its own radius an end lies from what it stands against at most
 _DEVICES = frozenset({"valve", "pump"})
 _BODIES = frozenset({None, "valve", "valve body", "pump", "pump casing"})
-_FASTENERS = frozenset({"bolt", "nut", "washer", "stud", "screw"})
 
 
 @dataclass(frozen=True)
@@ -69,13 +69,6 @@ class _Search:
         return frozenset(name for name, tree in trees.items() if tree.get("connector") or tree.get("unit"))
 
     @cached_property
-    def _carried(self) -> frozenset[str]:
-        """The parts that are in the network."""
-        network = self.network
-        along = {part for place in network.places for arc in network.arcs(place) for part in arc.via}
-        return frozenset(along.union(*(node.parts for node in network.places.values())))
-
-    @cached_property
     def _ends_at(self) -> dict[str, list[Terminal]]:
         """The ends outside that a part carries or lies against."""
         found: dict[str, list[Terminal]] = {}
@@ -113,12 +106,13 @@ class _Search:
 
     def _is_loose(self, part: Part) -> bool:
         """Whether a part is in no network and may belong into one: nobody is sure that it is something else."""
-        if part.ground or part.id in self._carried:
+        if part.ground or part.id in self.network.carried:
             return False
         label = part.label
-        if label is None or label.likely:
-            return label is None or label.name not in _FASTENERS or label.group in self._functional
-        return label.group in self._functional and label.name not in _FASTENERS
+        if label is None:
+            return True
+        functional, holds = label.group in self._functional, label.name in FASTENERS
+        return functional or not holds if label.likely else functional and not holds
 
     def _is_device(self, part: Part) -> bool:
         """Whether a loose part is likely all of a valve or a pump, or its body."""

@@ -52,6 +52,12 @@ class Network(Pipework):
         return self._owner_of_part.get(part)
 
     @cached_property
+    def carried(self) -> frozenset[str]:
+        """Ids of the parts that connections run over or that belong to a node."""
+        along = {part for place in self.places for arc in self.arcs(place) for part in arc.via}
+        return frozenset(along.union(*(node.parts for node in self.places.values())))
+
+    @cached_property
     def _system_of(self) -> dict[str, str]:
         return {
             place: system.id

@@ -88,6 +88,13 @@ def test_a_gasket_at_one_nozzle_makes_it_no_wider_where_both_lines_are_of_one_si
     assert len(said) == told
 
 
+@pytest.mark.parametrize("sizes", [((), ()), ((80,), (80,))])
+def test_nozzles_far_apart_along_the_shaft_say_nothing_whatever_the_size_of_their_lines(sizes):
+    near, far = (opening((x, 0, 0.2), UP, 0.08) for x in (0.3, -0.6))
+    assert pump(opening((0.4, 0, 0), X, 0.08), near, sizes=sizes)
+    assert pump(opening((0.4, 0, 0), X, 0.08), far, sizes=sizes) == {}
+
+
 def test_a_wider_level_nozzle_draws_and_one_that_looks_up_delivers():
     ball = shapes.sphere(0.2)
     said = pump(opening((0.2, 0, 0), X, 0.1), opening((0, 0, 0.2), UP, 0.08), ball)

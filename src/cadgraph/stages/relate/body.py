@@ -11,10 +11,11 @@ import numpy as np
 
 from cadgraph.geometry.components import connected_sets
 from cadgraph.geometry.line.centreline import Centreline
+from cadgraph.model.vocabulary import FASTENERS
 from cadgraph.stages.relate.attach import Attachments, Mount, attach_lines
 from cadgraph.stages.relate.belief import Beliefs
 from cadgraph.stages.relate.joint import Ends
-from cadgraph.stages.relate.piping import FASTENERS, Group, Piping
+from cadgraph.stages.relate.piping import Group, Piping
 
 __all__ = ["Arrangement", "Body", "arrangement_of", "find_bodies", "other_groups"]
 

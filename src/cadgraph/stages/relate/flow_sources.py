@@ -154,10 +154,11 @@ def _as_wide_as_lines(sight: Sight, number: int, unit: UnitParts) -> UnitParts:
 
     What joins first may be a gasket on one side and a bare pipe on the other, whose diameters tell nothing of nozzles.
     """
-    sizes = [_size_at(sight, number, port) for port in range(len(unit.openings))]
-    if None in sizes or len(set(sizes)) > 1:
+    sizes = {_size_at(sight, number, port) for port in range(len(unit.openings))}
+    size = sizes.pop()
+    if size is None or sizes:
         return unit
-    return replace(unit, openings=tuple(replace(opening, diameter=None) for opening in unit.openings))
+    return replace(unit, openings=tuple(replace(opening, diameter=size / 1000) for opening in unit.openings))
 
 
 def _size_at(sight: Sight, number: int, port: int) -> int | None:

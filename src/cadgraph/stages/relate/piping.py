@@ -17,17 +17,14 @@ from cadgraph.model.parts import Contacts, Joint, Parts
 from cadgraph.model.probabilities import Probabilities
 from cadgraph.model.scene import Ints
 from cadgraph.model.stated import resolve_links
-from cadgraph.model.vocabulary import Vocabulary
+from cadgraph.model.vocabulary import FASTENERS, Vocabulary
 from cadgraph.stages.relate.attach import Attachments, attach_lines
 from cadgraph.stages.relate.edit_joints import edit_joints
 from cadgraph.stages.relate.edits import NetworkEdits
 from cadgraph.stages.relate.role import Roles
 from cadgraph.stages.relate.stated import Stated
 
-__all__ = ["FASTENERS", "Group", "Piping", "Recovered", "RelateInput"]
-
-FASTENERS = frozenset({"bolt", "nut", "washer", "stud", "screw"})
-"""Names of what holds a joint together."""
+__all__ = ["Group", "Piping", "Recovered", "RelateInput"]
 
 _MOST_HELD = 6  # lines at one fastener: two flanges, their gaskets, pipes; more are a set of bolts in one mesh
 

@@ -7,7 +7,7 @@ under a post. Where it is not hollow, or stands where a post would, that stays o
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -15,10 +15,11 @@ import numpy as np
 
 from cadgraph.geometry.line.centreline import Centreline
 from cadgraph.model.parts import Joint
+from cadgraph.model.vocabulary import FASTENERS
 from cadgraph.stages.relate.cover import cover_of
 from cadgraph.stages.relate.joint import Ends, Tap, find_tap, gather_ends
 from cadgraph.stages.relate.line import is_steady
-from cadgraph.stages.relate.piping import FASTENERS, RelateInput
+from cadgraph.stages.relate.piping import RelateInput
 from cadgraph.stages.relate.role import Roles
 
 __all__ = ["Stubbed", "find_stubbed", "likely_stubbed"]
@@ -85,9 +86,8 @@ def find_stubbed(
     if not tubes:
         return Stubbed({})
     sight = _Sight(given, gather_ends({part: traced[part] for part in tubes}), lines, _vessels(given, roles))
-    found = [part for part in tubes if sight.is_branch(part)]
-    doubts = [joint for part in tubes if part not in found for joint in sight.open_joints(part)]
-    return Stubbed({part: traced[part] for part in found}, tuple(doubts))
+    found = {part: traced[part] for part in tubes if sight.is_branch(part)}
+    return Stubbed(found, tuple(joint for part in tubes if part not in found for joint in sight.open_joints(part)))
 
 
 def _tubes(candidates: Sequence[int], traced: Mapping[int, Centreline], lines: Collection[int]) -> list[int]:
@@ -114,10 +114,10 @@ class _Sight:
     def is_branch(self, part: int) -> bool:
         """Whether a hollow tube is set on the side of a line, and nothing stops it at its other end."""
         taps = self._taps(part)
-        if not taps or not self._are_hollow([*taps]):
+        if not taps or not self._are_hollow(taps):
             return False
         far = self._others(part, taps)
-        return not self._stands(far) and not self._is_post(far)
+        return not any(map(self._stands, far)) and not any(map(self._is_post, far))
 
     def open_joints(self, part: int) -> Iterator[Joint]:
         """The joints that were not made with what may be a branch."""
@@ -125,102 +125,90 @@ class _Sight:
         yield from self._open_taps(part, taps) if taps else self._open_mounts(part)
 
     def _open_taps(self, part: int, taps: Mapping[int, tuple[int, Tap]]) -> Iterator[Joint]:
-        if self._stands(self._others(part, taps)):
+        if any(map(self._stands, self._others(part, taps))):
             return
         for row, (other, tap) in taps.items():
-            yield _open(row, other, tap.gap, self.ends, self._are_hollow([*taps]))
+            yield _open(row, other, tap.gap, self.ends, self._are_hollow(taps))
 
     def _open_mounts(self, part: int) -> Iterator[Joint]:
-        mounts = _mounts(self.given, part, self.ends, self.vessels)
+        mounts = self._mounts(part)
         far = self._others(part, mounts)
         # Lugs, legs and rails are welded to vessels much as pipes are: none of them is taken for one.
-        if not mounts or not far or self._stands(far) or self._is_post(far):
+        if not mounts or not far or any(map(self._stands, far)) or any(map(self._is_post, far)):
             return
         for row, vessel in mounts.items():
-            yield _open(row, vessel, None, self.ends, self._are_hollow([*mounts]))
+            yield _open(row, vessel, None, self.ends, self._are_hollow(mounts))
 
     def _taps(self, part: int) -> dict[int, tuple[int, Tap]]:
-        return _taps(self.given, part, self.ends, self.lines)
+        """The ends of a part that are set on the side of a line, each with that line's part and where on it."""
+        found: dict[int, tuple[int, Tap]] = {}
+        for row in self.ends.of_part.get(part, ()):
+            on = [
+                (other, tap)
+                for other in self._near(row)
+                if other in self.lines
+                and (tap := find_tap(self.ends, row, self.lines[other], _REACH)) is not None
+                and not tap.sleeve
+            ]
+            if on:
+                found[row] = min(on, key=lambda one: (one[1].gap, one[0]))
+        return found
+
+    def _mounts(self, part: int) -> dict[int, int]:
+        """The ends of a part at the wall of a vessel, or inside as a dip tube's, each with that part of the vessel."""
+        found: dict[int, int] = {}
+        for row in self.ends.of_part.get(part, ()):
+            vessels = [other for other in self._near(row) if other in self.vessels]
+            walls = [other for other in vessels if self._reaches_in(row, other) or self._is_covered(row, [other])]
+            if walls:
+                found[row] = walls[0]
+        return found
+
+    def _near(self, row: int) -> Sequence[int]:
+        """The parts near the one of an end."""
+        return self.given.neighbors.get(int(self.ends.part[row]), ())
 
     def _others(self, part: int, rows: Collection[int]) -> list[int]:
         return [row for row in self.ends.of_part.get(part, ()) if row not in rows]
 
-    def _are_hollow(self, rows: list[int]) -> bool:
-        return bool((self.ends.bore[rows] >= _HOLLOW * self.ends.radius[rows]).all())
+    def _are_hollow(self, rows: Iterable[int]) -> bool:
+        at = [*rows]
+        return bool((self.ends.bore[at] >= _HOLLOW * self.ends.radius[at]).all())
 
-    def _stands(self, rows: Sequence[int]) -> bool:
-        return any(_stands(self.given, self.ends, row, self.lines) for row in rows)
+    def _is_covered(self, row: int, others: Collection[int]) -> bool:
+        return cover_of(self.given.parts, others, self.ends, row) is not None
 
-    def _is_post(self, rows: Sequence[int]) -> bool:
-        return any(_ends_as_a_post(self.given, self.ends, row) for row in rows)
+    def _reaches_in(self, row: int, vessel: int) -> bool:
+        """Whether an end lies in the box around a vessel and another one of the same part outside of it."""
+        low, high = self.given.parts.properties.aabb[vessel]
+        points = self.ends.point[list(self.ends.of_part[int(self.ends.part[row])])]
+        outside = ((points < low - _REACH) | (points > high + _REACH)).any()
+        return bool((self.ends.point[row] > low).all() and (self.ends.point[row] < high).all() and outside)
+
+    def _stands(self, row: int) -> bool:
+        """Whether an end stands on something, or something closes it."""
+        near = [other for other in self._near(row) if other not in self.lines and self._is_at(row, other)]
+        return any(self.given.parts.ground[other] for other in near) or self._is_covered(row, near)
+
+    def _is_at(self, row: int, other: int) -> bool:
+        low, high = self.given.parts.properties.aabb[other]
+        reach = float(self.ends.radius[row]) + _REACH
+        return bool((self.ends.point[row] >= low - reach).all() and (self.ends.point[row] <= high + reach).all())
+
+    def _is_post(self, row: int) -> bool:
+        """Whether an end looks down from as low as anything of its structure lies."""
+        if self.ends.direction[row, 2] > -_DOWN:
+            return False
+        part, cluster = int(self.ends.part[row]), self.given.cluster
+        same = np.flatnonzero((cluster == cluster[part]) & ~self.given.parts.ground)
+        lowest = float(self.given.parts.properties.aabb[same[same != part], 0, 2].min(initial=np.inf))
+        return bool(self.ends.point[row, 2] <= lowest + _LEVEL)
 
 
 def _vessels(given: RelateInput, roles: Roles) -> frozenset[int]:
     """The parts of tanks and of other equipment."""
     unit_of = given.vocabulary.unit_of_group
     return frozenset(part for part, group in enumerate(roles.groups) if group and unit_of.get(group) in _VESSELS)
-
-
-def _mounts(given: RelateInput, part: int, ends: Ends, vessels: Collection[int]) -> dict[int, int]:
-    """The ends of a part at the wall of a vessel, or inside as a dip tube's, each with that part of the vessel."""
-    near = [other for other in given.neighbors.get(part, ()) if other in vessels]
-    found: dict[int, int] = {}
-    for row in ends.of_part.get(part, ()):
-        walls = [
-            other
-            for other in near
-            if _reaches_in(given, part, ends, row, other) or cover_of(given.parts, [other], ends, row) is not None
-        ]
-        if walls:
-            found[row] = walls[0]
-    return found
-
-
-def _reaches_in(given: RelateInput, part: int, ends: Ends, row: int, vessel: int) -> bool:
-    """Whether an end lies in the box around a vessel and another one of the same part outside of it."""
-    low, high = given.parts.properties.aabb[vessel]
-    points = ends.point[list(ends.of_part[part])]
-    outside = ((points < low - _REACH) | (points > high + _REACH)).any()
-    return bool((ends.point[row] > low).all() and (ends.point[row] < high).all() and outside)
-
-
-def _taps(given: RelateInput, part: int, ends: Ends, lines: Mapping[int, Centreline]) -> dict[int, tuple[int, Tap]]:
-    """The ends of a part that are set on the side of a line, each with that line's part and where on it."""
-    found: dict[int, tuple[int, Tap]] = {}
-    for row in ends.of_part.get(part, ()):
-        on = [
-            (other, tap)
-            for other in given.neighbors.get(part, ())
-            if other in lines and (tap := find_tap(ends, row, lines[other], _REACH)) is not None and not tap.sleeve
-        ]
-        if on:
-            found[row] = min(on, key=lambda one: (one[1].gap, one[0]))
-    return found
-
-
-def _stands(given: RelateInput, ends: Ends, row: int, lines: Collection[int]) -> bool:
-    """Whether an end stands on something, or something closes it."""
-    part, ground = int(ends.part[row]), given.parts.ground
-    near = [other for other in given.neighbors.get(part, ()) if other not in lines and _is_at(given, ends, row, other)]
-    return any(ground[other] for other in near) or cover_of(given.parts, near, ends, row) is not None
-
-
-def _is_at(given: RelateInput, ends: Ends, row: int, other: int) -> bool:
-    low, high = given.parts.properties.aabb[other]
-    reach = float(ends.radius[row]) + _REACH
-    return bool((ends.point[row] >= low - reach).all() and (ends.point[row] <= high + reach).all())
-
-
-def _ends_as_a_post(given: RelateInput, ends: Ends, row: int) -> bool:
-    """Whether an end looks down from as low as anything of its structure lies."""
-    part = int(ends.part[row])
-    if ends.direction[row, 2] > -_DOWN:
-        return False
-    boxes = given.parts.properties.aabb
-    same = np.flatnonzero((given.cluster == given.cluster[part]) & ~given.parts.ground)
-    others = same[same != part]
-    lowest = float(boxes[others, 0, 2].min(initial=np.inf))
-    return bool(ends.point[row, 2] <= lowest + _LEVEL)
 
 
 def _open(row: int, other: int, gap: float | None, ends: Ends, hollow: bool) -> Joint:

@@ -11,8 +11,9 @@ import numpy as np
 
 from cadgraph.geometry.components import connected_sets
 from cadgraph.model.parts import Parts
+from cadgraph.model.vocabulary import FASTENERS
 from cadgraph.stages.relate.attach import Attachments, flat_contacts
-from cadgraph.stages.relate.piping import FASTENERS, Group, Piping, RelateInput
+from cadgraph.stages.relate.piping import Group, Piping, RelateInput
 from cadgraph.stages.relate.role import Roles
 
 __all__ = ["connected_groups", "is_loose_operator", "mend_units", "split_groups", "take_in_enclosed"]
