@@ -213,7 +213,9 @@ class ClusterConfig(Section):
 class LabelConfig(Section):
     """How parts get their labels."""
 
-    labeler: Literal["embedded", "none"] = _setting("embedded", "the trained network in the package, or none")
+    labeler: Literal["embedded", "none", "own"] = _setting(
+        "embedded", "the trained network in the package, or none; own, in a graph: one that a program gave"
+    )
     min_confidence: float | None = _setting(
         None,
         "a label below this confidence is only a guess; none: the labeler's own threshold",

@@ -17,6 +17,7 @@ from cadgraph.facts.words import read_words
 from cadgraph.geometry.mesh.properties import measure
 from cadgraph.geometry.shape.analysis import measure_shapes_by
 from cadgraph.labelers.base import Labeler, label_parts
+from cadgraph.labelers.former import settings_with
 from cadgraph.labelers.precedence import SettledLabels, settle_labels
 from cadgraph.labelers.registry import labeler_of
 from cadgraph.model.analysis import Analysis
@@ -102,6 +103,7 @@ def build(
     tree = vocabulary or default_vocabulary()
     config = as_read(scene, config or Config())
     check_asked(tree, labeler, labels, corrections)
+    config = settings_with(config, labeler)
     catalogs = [read_catalog(file) for file in config.label.catalogs]
     analysis = lay_ground(analyse(scene, config, progress, crew), corrections, config)
     progress("label", 0)

@@ -106,6 +106,22 @@ def test_label_outside_the_vocabulary_is_dropped_and_told(unknown):
     assert f"says {'/'.join(filter(None, unknown))!r} of 2 parts" in note.message
 
 
+@pytest.mark.parametrize(
+    ("source", "evidence", "words"),
+    [
+        ("human", {}, "calls the source of its label of /mesh_0 'human'.*a word of your own"),
+        ("mine", {"weights": np.arange(3)}, "evidence of /mesh_0 can't be written.*ndarray.*give numbers"),
+        ("mine", {"score": float("nan")}, "evidence of /mesh_0 can't be written"),
+    ],
+)
+def test_what_a_labeler_may_not_say_ends_in_one_line(source, evidence, words):
+    parts = parts_of(scene_of(1), (0,))
+    says = Says(Label("Pipe assembly", "pipe", 0.9, source, evidence))
+    with pytest.raises(LabelError, match=words) as caught:
+        label_parts(says, parts, NO_CONTACTS, VOCABULARY, LabelConfig())
+    assert "\n" not in str(caught.value)
+
+
 def test_wrong_number_of_answers_is_an_error():
     parts = parts_of(scene_of(2), (0,), (1,))
     with pytest.raises(LabelError, match="1 answers for 2 parts"):

@@ -4,16 +4,21 @@ import pytest
 
 import knobs
 import shapes
+from cadgraph import build, load
 from cadgraph.config import Config
 from cadgraph.errors import LabelError, LoadError
+from cadgraph.labelers.base import Labeling
+from cadgraph.labelers.embedded.labeler import EmbeddedLabeler
 from cadgraph.model.catalog import read_catalog, write_catalog
 from cadgraph.model.corrections import read_corrections
 from cadgraph.model.given_labels import GivenLabel, split_label
 from cadgraph.model.graph import SceneGraph
+from cadgraph.model.labels import Label
 from cadgraph.model.vocabulary import default_vocabulary
 from cadgraph.query.explain import explain
 from cadgraph.session.catalog_builder import EMPTY, take_file, take_graph
-from cadgraph.session.correct import amend
+from cadgraph.session.correct import amend, step_back_or_forth
+from cadgraph.session.demo import DEMO_SCENE
 from cadgraph.session.run import run
 from command_line import refused
 from command_line import run as command
@@ -130,6 +135,75 @@ def test_labels_of_a_model_that_was_asked_are_kept_without_asking(folder):
     assert {label_of(graph, mesh) for mesh in ("/a", "/b", "/knob")} == {("tank", "lvlm")}
     assert label_of(graph, "/box") is None
     assert [g.name for g in graph.part("/box").guesses] == ["shell"]
+
+
+class Halves:
+    """Says what the embedded labeler says, of every other part as if somebody had said so who is never sure."""
+
+    def label(self, parts, contacts, vocabulary):
+        said = EmbeddedLabeler().label(parts, contacts, vocabulary)
+        answers = [
+            Label(*one.said, 0.6, "mine", {"why": "looks so"}) if one is not None and part % 2 else one
+            for part, one in enumerate(said.answers)
+        ]
+        return Labeling.judge(answers, said.thresholds, sure=said.sure)
+
+
+@pytest.fixture
+def halves(tmp_path):
+    """The folder of the demo's plant, labelled by a program's own labeler."""
+    run(DEMO_SCENE, tmp_path / "out", Config().replace({"load.isolate": False}), labeler=Halves(), report=False)
+    return tmp_path / "out"
+
+
+def test_a_correction_keeps_the_labels_of_an_own_labeler_and_how_sure_they_are(halves):
+    before = SceneGraph.load(halves)
+    content = (halves / "graph.json").read_bytes()
+    assert before.config["label"]["labeler"] == "own"
+    assert sum(part.label is not None and part.label.likely for part in before.parts()) > 20
+    part = next(p for p in before.parts() if p.label is not None and p.label.likely and p.label.name == "pipe")
+    done = amend(halves, part.id, "Pipe assembly/hose", this_only=True, report=False)
+    assert [one.meshes[0] for one in done.changed] == [part.meshes[0]]
+    now = SceneGraph.load(halves)
+    assert now.part(part.meshes[0]).label.evidence.before.likely
+    assert sum(one.label is not None and one.label.source == "mine" for one in now.parts()) > 20
+    step_back_or_forth(halves, "undo", report=False)
+    assert (halves / "graph.json").read_bytes() == content
+    remarks = run(DEMO_SCENE, halves, Config().replace({"load.isolate": False}), report=False).remarks
+    assert ["program's own labeler" in one for one in remarks] == [True]
+
+
+def test_a_correction_leaves_likely_labels_of_a_model_likely(tmp_path):
+    run(DEMO_SCENE, tmp_path, Config().replace({"load.isolate": False}), report=False)
+    content = json.loads((tmp_path / "graph.json").read_text())
+    content["config"]["lvlm"]["ask"] = "unsure"
+    SceneGraph.from_json(content).save(tmp_path)
+    before = SceneGraph.load(tmp_path)
+    likely = {part.meshes[0]: part.label for part in before.parts() if part.label is not None and part.label.likely}
+    pipe = before.parts(name="pipe")[0]
+    amend(tmp_path, pipe.id, "Pipe assembly/hose", this_only=True, report=False)
+    now = step_back_or_forth(tmp_path, "undo", report=False).outcome.graph
+    assert likely
+    assert {p.meshes[0]: p.label for p in now.parts() if p.label is not None and p.label.likely} == likely
+    assert [(u.tag, u.kind, u.parts) for u in now.units()] == [(u.tag, u.kind, u.parts) for u in before.units()]
+
+
+def test_a_build_tells_which_labels_of_the_earlier_graph_it_does_not_have(scene, halves):
+    run(scene, halves, NONE, labels=[GivenLabel("/knob", "Tank", "tank")], report=False)
+    outcome = run(scene, halves, NONE, report=False)
+    assert len(outcome.remarks) == 1
+    assert "1 labels from outside" not in outcome.remarks[0]
+    assert "1 label from outside, this one has none; build it again with --labels" in outcome.remarks[0]
+    assert run(scene, halves, NONE, report=False).remarks == ()
+    content = json.loads((halves / "graph.json").read_text())
+    content["nodes"][0]["label"] = {"group": "Tank", "confidence": 0.7, "source": "lvlm", "evidence": {}}
+    SceneGraph.from_json(content).save(halves)
+    assert "'cadgraph label' gives them again" in run(scene, halves, NONE, report=False).remarks[0]
+
+
+def test_a_build_without_the_labeler_of_a_program_is_refused_where_the_settings_name_it():
+    with pytest.raises(LabelError, match=r"label.labeler is 'own'.*embedded or none"):
+        build(load(DEMO_SCENE), Config().replace({"label.labeler": "own"}))
 
 
 def test_labels_are_split_by_the_vocabulary():
@@ -269,9 +343,10 @@ def test_what_a_changed_scene_lost_is_told_and_kept(capsys, folder, scene):
     scene.write_text(scene.read_text().replace("(5.", "(6."))
     text = scene.read_text().replace('def Mesh "knob"', 'def Mesh "moved"')
     scene.write_text(text)
-    run(scene, folder, NONE, report=False)
+    done = run(scene, folder, NONE, report=False)
     lost = "label Tank of /knob: no part of that path and shape, and none of that shape in its place"
     assert [d.message for d in SceneGraph.load(folder).diagnostics if d.code == "correction-lost"] == [lost]
+    assert done.remarks == ("1 of 1 correction no longer fits; kept for a scene that holds what they are about:", lost)
     assert "no longer fits: label Tank of /knob" in command(capsys, "corrections", folder)[1]
     assert "/knob" in (folder / "corrections.json").read_text()
 

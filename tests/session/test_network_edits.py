@@ -161,6 +161,7 @@ def test_a_device_that_labels_missed_is_not_found_again_where_it_was_cut_off():
         ({"kind": "tag", "unit": "V-001", "tag": "b 1"}, "another unit is called b 1"),
         ({"kind": "join", "first": "part-00000", "second": "V-001"}, "V-001 is a unit, and parts join: name that one"),
         ({"kind": "tag", "unit": "V-001", "tag": " "}, "at least one letter"),
+        ({"kind": "tag", "unit": "V-001", "tag": "P-1 -> V-2"}, "-> stands between names"),
         ({"kind": "tag", "unit": "V-001", "tag": "x" * 65}, "at most 64"),
         ({"kind": "tag", "unit": "V-001", "tag": "a\nb"}, "can't be printed"),
         ({"kind": "tag", "unit": "V-001", "tag": "part-00001"}, "ids of the graph"),
@@ -193,6 +194,20 @@ def test_two_units_change_tags_with_each_other_in_one_correction():
         "V-001": before["T-001"], "T-001": before["V-001"],
     }  # fmt: skip
     assert not session.lost
+
+
+def test_one_correction_says_one_thing_of_each(refusing):
+    session, before = refusing
+    tag, label = {"kind": "tag", "unit": "V-001"}, {"kind": "label", "part": part(1), "group": "Pipe assembly"}
+    for first, second in (
+        ({**tag, "tag": "X-1"}, {**tag, "tag": "X-2"}),
+        ({**label, "name": "pipe"}, {**label, "name": "hose"}),
+    ):
+        with pytest.raises(ValueError, match="both in one correction; say one of them"):
+            session.apply([first, second])
+    assert (bytes_of(session), session.history) == (before, History())
+    session.apply([{**label, "name": "hose"}, {**label, "name": "hose"}])
+    session.undo()
 
 
 @pytest.fixture(scope="module")
@@ -278,6 +293,9 @@ def test_a_set_direction_beats_geometry_and_spreads():
         ("V-001", "stated: T-001 -> T-002"),
         ("V-002", "stated: T-001 -> T-002"),
     }
+    for other in (direction(session, "V-001", "V-002"), direction(session, "V-002", "V-001", "backward")):
+        with pytest.raises(ValueError, match="both in one correction; say one of them"):
+            session.apply([direction(session, "V-002", "V-001"), other])
     change = session.apply([direction(session, "V-002", "V-001")])
     assert change.message.startswith("it flows from V-002 to V-001; the flow turns in 3 connections")
     told = flows(session.graph)

@@ -15,7 +15,6 @@ from cadgraph._io.run_folder import refuse_foreign, tidy
 from cadgraph.agents.answer import Answer, AskError, cell, page_of
 from cadgraph.agents.plant import Plant
 from cadgraph.errors import CadGraphError, OutputError
-from cadgraph.labelers.base import Labeler
 from cadgraph.load.source_file import find_source
 from cadgraph.model.given_labels import split_label
 from cadgraph.model.graph import SceneGraph
@@ -24,7 +23,7 @@ from cadgraph.model.records import Connected, Part, Unit
 from cadgraph.model.scene import Scene
 from cadgraph.model.vocabulary import spell_label
 from cadgraph.serve.saving import Saver
-from cadgraph.session.reopen import FormerLabeler, config_of, reopen
+from cadgraph.session.reopen import config_of, reopen
 from cadgraph.session.run import write_graph
 from cadgraph.session.session import Change, Session
 from cadgraph.session.told import tell_renamed
@@ -156,9 +155,7 @@ class Desk:
         try:
             config = config_of(self._folder)
             self._source = find_source(graph.source, self._folder)
-            # What a model was paid for is not asked again.
-            former: Labeler | None = FormerLabeler(graph) if config.lvlm.ask != "never" else None
-            session = reopen(graph, self._folder, self._source, config, former, self._progress, keep=True)
+            session = reopen(graph, self._folder, self._source, config, self._progress, keep=True)
             now = session.make_graph(self._progress)
             session.prepare()
             # Where the source lies now is no difference.

@@ -148,6 +148,8 @@ def tell(outcome: Any) -> None:
         if purpose in outcome.files:
             out.print(f"[dim]{words:<15}[/][bold]{escape(str(outcome.files[purpose]))}[/]")
     tell_state(outcome.earlier, outcome.removed)
+    for remark in outcome.remarks:
+        out.print(f"[yellow]{escape(remark)}[/]")
 
 
 def tell_built(one: Any, width: int) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import warnings
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
@@ -20,6 +21,7 @@ __all__ = ["LEAST_CONFIDENCE", "AskingLabeler", "Labeler", "Labeling", "Probabil
 LEAST_CONFIDENCE = 0.5
 """Of a label, where neither the settings nor the labeler say."""
 
+_OF_USERS = ("human", "repeat")  # sources of corrections
 _EXAMPLES = 20  # so many labels, and so many meshes of each, are named
 
 
@@ -32,7 +34,7 @@ class Labeling:
         guesses: of each part that has no label for that reason what it may be, the likeliest first.
         answers: of each part the likeliest label, however unsure; ``labels`` are those that are sure enough.
         thresholds: least confidence of a label of each part.
-        sure: least confidence of one that is sure; those below are marked as likely.
+        sure: least confidence of one that is sure, of all or of each part; those below are marked as likely.
         probabilities: of all names, where the labeler knows them.
         diagnostics: what is to be reported about it.
     """
@@ -43,7 +45,7 @@ class Labeling:
     thresholds: tuple[float, ...]
     probabilities: Probabilities | None = None
     diagnostics: tuple[Diagnostic, ...] = ()
-    sure: float = 0.0
+    sure: float | tuple[float, ...] = 0.0
 
     @classmethod
     def judge(
@@ -52,7 +54,7 @@ class Labeling:
         threshold: float | Sequence[float] = LEAST_CONFIDENCE,
         probabilities: Probabilities | None = None,
         diagnostics: Sequence[Diagnostic] = (),
-        sure: float = 0.0,
+        sure: float | Sequence[float] = 0.0,
     ) -> Labeling:
         """Tells sure labels, likely ones and mere guesses by their confidence.
 
@@ -61,12 +63,12 @@ class Labeling:
             threshold: least confidence of a label: of all, or of each part.
             probabilities: of all names, where they are known.
             diagnostics: what is to be reported.
-            sure: least confidence of a label that is sure.
+            sure: least confidence of a label that is sure: of all, or of each part.
         """
-        least = tuple(threshold) if isinstance(threshold, Sequence) else (threshold,) * len(answers)
+        least = _each(threshold, len(answers))
         labels = tuple(
-            _marked(a, sure) if a is not None and a.confidence >= limit else None
-            for a, limit in zip(answers, least, strict=True)
+            _marked(a, least_sure) if a is not None and a.confidence >= limit else None
+            for a, limit, least_sure in zip(answers, least, _each(sure, len(answers)), strict=True)
         )
         guesses = tuple(
             (answer.guesses or (Guess(answer.group, answer.name, answer.confidence),))
@@ -74,12 +76,21 @@ class Labeling:
             else ()
             for answer, label in zip(answers, labels, strict=True)
         )
-        return cls(labels, guesses, tuple(answers), least, probabilities, tuple(diagnostics), sure)
+        return cls(labels, guesses, tuple(answers), least, probabilities, tuple(diagnostics), _kept(sure))
 
     @classmethod
     def empty(cls, n_parts: int) -> Labeling:
         """Nobody says anything about any of ``n_parts`` parts."""
         return cls.judge([None] * n_parts)
+
+
+def _each(value: float | Sequence[float], n_parts: int) -> tuple[float, ...]:
+    """A threshold of each part."""
+    return tuple(value) if isinstance(value, Sequence) else (value,) * n_parts
+
+
+def _kept(value: float | Sequence[float]) -> float | tuple[float, ...]:
+    return tuple(value) if isinstance(value, Sequence) else value
 
 
 def _marked(label: Label, sure: float) -> Label:
@@ -132,13 +143,15 @@ def label_parts(
         config: the least confidence, in place of the labeler's own.
 
     Raises:
-        LabelError: the labeler answers for another number of parts.
+        LabelError: the labeler answers for another number of parts, speaks for the user, or gives evidence that no file
+            can hold.
     """
     if labeler is None:
         return Labeling.empty(parts.n_parts)
     said = _as_labeling(labeler.label(parts, contacts, vocabulary))
     if len(said.labels) != parts.n_parts:
         raise LabelError(f"the labeler gave {len(said.labels)} answers for {parts.n_parts} parts")
+    _check_answers(said.answers, parts)
     held = [answer if answer is not None and vocabulary.holds(*answer.said) else None for answer in said.answers]
     least = said.thresholds if config.min_confidence is None else config.min_confidence
     sure = said.sure if config.sure_confidence is None else config.sure_confidence
@@ -150,6 +163,29 @@ def label_parts(
         for answer, known, mine in zip(said.answers, said.guesses, judged.guesses, strict=True)
     )
     return replace(judged, guesses=guesses)
+
+
+def _check_answers(said: Sequence[Label | None], parts: Parts) -> None:
+    """Makes sure that labels can be written, and that none says that the user gave it."""
+    checked: set[int] = set()
+    for part, answer in enumerate(said):
+        if answer is None:
+            continue
+        if answer.source in _OF_USERS:
+            raise LabelError(
+                f"the labeler calls the source of its label of {parts.scene.paths[part]} {answer.source!r}, like a "
+                "user's correction; take a word of your own"
+            )
+        extra = answer.evidence.model_extra
+        if extra and id(extra) not in checked:
+            checked.add(id(extra))
+            try:
+                json.dumps(extra, allow_nan=False)
+            except (TypeError, ValueError) as error:
+                raise LabelError(
+                    f"the labeler's evidence of {parts.scene.paths[part]} can't be written ({error}); give numbers, "
+                    "texts, lists and dicts of these"
+                ) from error
 
 
 def _unknown(said: Sequence[Label | None], held: Sequence[Label | None], parts: Parts) -> list[Diagnostic]:

@@ -82,6 +82,7 @@ class FormerLabel(Record):
         confidence: 0..1, None where it was not kept.
         source: who said so, None where it was not kept.
         why: in words, or None.
+        likely: whether it was not sure; left out where it was, or where that was not kept.
     """
 
     group: str
@@ -89,6 +90,7 @@ class FormerLabel(Record):
     confidence: float | None = _absent(ge=0, le=1)
     source: str | None = _absent()
     why: str | None = _absent()
+    likely: bool | None = _absent()
 
     @classmethod
     def of(cls, label: Label | None) -> FormerLabel | None:
@@ -101,6 +103,7 @@ class FormerLabel(Record):
             confidence=round(label.confidence, 6),
             source=label.source,
             why=label.evidence.why,
+            likely=True if label.likely else None,
         )
 
 

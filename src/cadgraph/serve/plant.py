@@ -26,7 +26,7 @@ from cadgraph.serve.order import Order
 from cadgraph.serve.saving import Saver
 from cadgraph.serve.snapshot import Snapshot, difference
 from cadgraph.serve.state import Feed, Refusal, State
-from cadgraph.session.reopen import FormerLabeler, config_of, reopen
+from cadgraph.session.reopen import config_of, reopen
 from cadgraph.session.review.question import Question
 from cadgraph.session.review.queue import review_queue
 from cadgraph.session.run import Clock, begin, write_graph, write_report_anew, write_results
@@ -195,8 +195,7 @@ class Plant:
             return
         # The plant can be looked at while the rest is made ready.
         self._see(graph, prepare_scene(scene)[0])
-        former = FormerLabeler(graph) if config.lvlm.ask != "never" else None
-        session = reopen(graph, folder, source, config, former, self._progress, scene=scene, keep=True)
+        session = reopen(graph, folder, source, config, self._progress, scene=scene, keep=True)
         self._source = source
         now = session.make_graph(self._progress)
         shown = self.shown()

@@ -17,7 +17,7 @@ from cadgraph.model.given_labels import split_label
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Part
 from cadgraph.model.vocabulary import Vocabulary
-from cadgraph.session.reopen import FormerLabeler, config_of, reopen
+from cadgraph.session.reopen import config_of, reopen
 from cadgraph.session.requests import EditRequest
 from cadgraph.session.run import Clock, Outcome, stage_graph, write_rest
 from cadgraph.session.session import Change, Session, changed_parts
@@ -186,10 +186,9 @@ def _changed(
     with results_folder(folder) as target:
         config = config_of(folder)
         source = find_source(before.source, target, scene, "--scene")
-        former = FormerLabeler(before) if config.lvlm.ask != "never" else None
         # A correction that the graph does not show must not wait for a later build: both come together.
         with new_results(target) as new:
-            session = reopen(before, target, source, config, former, clock, keep=True)
+            session = reopen(before, target, source, config, clock, keep=True)
             done = change(session)
             seen, graph = session.analysis.scene, session.make_graph(clock)
             clock("write graph", 0)

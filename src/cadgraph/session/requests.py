@@ -43,6 +43,8 @@ _MOST = 100_000  # requests of one action, or parts of one request
 # Names that a graph gives to its nodes; a unit that is called so could not be told from them.
 _IDS = re.compile(r"site|unit-.*|(part|cluster|junction|terminal|system|shape)-?[0-9]+|l-?[0-9]{4,}", re.IGNORECASE)
 
+_MARKS = ("->", "<-")
+
 _Name = Annotated[str, Field(min_length=1, max_length=4096)]
 _Names = Annotated[tuple[_Name, ...], Field(max_length=_MOST)]
 _Place = Unit | Junction | Terminal
@@ -168,6 +170,7 @@ class Requests:
         """
         done = [self._one(request) for request in requests]
         self._refuse_tags([request for request in requests if isinstance(request, TagRequest)])
+        _refuse_two_answers(done)
         told = _together([words for _, words in done])
         more = f"; and {len(told) - 3} more" if len(told) > 3 else ""
         return tuple(edit for edit, _ in done), "; ".join(told[:3]) + more
@@ -243,6 +246,8 @@ class Requests:
             raise ValueError(f"tag {tag!r}: ids of the graph and numbers of lines look like this; give it another one")
         if "," in tag:
             raise ValueError(f"tag {tag!r}: a comma stands between tags; give it one without")
+        if (mark := next((mark for mark in _MARKS if mark in tag), None)) is not None:
+            raise ValueError(f"tag {tag!r}: {mark} stands between names where commands take them; give it one without")
         return Tag(self._anchors_of(unit), tag), f"{unit.tag} is called {tag}"
 
     def _refuse_tags(self, requests: Sequence[TagRequest]) -> None:
@@ -350,6 +355,36 @@ class Requests:
         """A part as it is known in the plant, and by its id, which alone names it."""
         unit = self.graph.unit_of(part)
         return _named(part) if unit is None else f"{_named(part)} ({unit.tag})"
+
+
+def _refuse_two_answers(done: Sequence[tuple[Edit, str]]) -> None:
+    """Refuses that one correction says two things of the same: whichever came last would win without a word."""
+    said: dict[tuple[str, object], tuple[object, str]] = {}
+    for edit, words in done:
+        about = _about(edit)
+        if about is None:
+            continue
+        subject, value = about
+        before = said.setdefault(subject, (value, words))
+        if before[0] != value:
+            raise ValueError(f"{before[1]}, and {words}: both in one correction; say one of them")
+
+
+def _about(edit: Edit) -> tuple[tuple[str, object], object] | None:
+    """What an edit gives a value to, and the value; None of one that gives none."""
+    if isinstance(edit, Correction):
+        return ("label", edit.mesh), (edit.group, edit.name, edit.this_only)
+    if isinstance(edit, Forget):
+        return ("label", edit.part.mesh), None
+    if isinstance(edit, Tag):
+        return ("tag", edit.parts[0].mesh), edit.tag
+    if isinstance(edit, Ground):
+        return ("ground", edit.mesh.mesh), edit.ground
+    if isinstance(edit, Direction):
+        turned = edit.ends[0] > edit.ends[1]
+        onward = {"forward": not turned, "backward": turned}.get(edit.flow)
+        return ("direction", frozenset(edit.ends)), onward
+    return None
 
 
 def _together(words: Sequence[str]) -> list[str]:

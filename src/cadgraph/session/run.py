@@ -28,6 +28,7 @@ from cadgraph.model.graph import SceneGraph
 from cadgraph.model.scene import Scene
 from cadgraph.model.vocabulary import Vocabulary, default_vocabulary, read_vocabulary
 from cadgraph.session.ahead import imported_meanwhile
+from cadgraph.session.replaced import labels_there, tell_lost_corrections, tell_replaced
 
 if TYPE_CHECKING:
     from cadgraph.session.session import Session
@@ -62,6 +63,7 @@ class Outcome:
         seconds: wall time of each stage [s].
         earlier: names of the files in the folder that still show an earlier graph, as a report that was not drawn anew.
         removed: names of the files that went with the earlier graph.
+        remarks: which labels and corrections of the earlier graph this one has not, and how they come back.
     """
 
     graph: SceneGraph
@@ -69,6 +71,7 @@ class Outcome:
     seconds: dict[str, float] = field(default_factory=dict)
     earlier: tuple[str, ...] = ()
     removed: tuple[str, ...] = ()
+    remarks: tuple[str, ...] = ()
 
 
 def run(
@@ -123,16 +126,19 @@ def run(
     with results_folder(folder) as target, crew_for(target, workers, tiles, ray) as crew:
         tree = vocabulary if isinstance(vocabulary, Vocabulary) else _tree(vocabulary)
         given = read_labels(labels, tree) if isinstance(labels, str | Path) else labels or ()
+        there = labels_there(target)
         session = begin(source, target, config, given, tree, labeler, clock, crew=crew)
         if isinstance(labeler, AskingLabeler) and labeler.only_asks and (target / "graph.json").exists():
             clock("", 1)
             return Outcome(SceneGraph.load(target), {}, clock.seconds)
         scene, graph = session.analysis.scene, session.make_graph(clock)
+        remarks = (*tell_replaced(there, graph), *tell_lost_corrections(session.lost, len(session.corrections)))
         del session
         if scene.n_meshes > _MANY:
             # What the stages have found and nobody holds any more leads back to itself in many places.
             gc.collect()
-        return write_results(scene, graph, source, target, config.report if report else None, clock)
+        outcome = write_results(scene, graph, source, target, config.report if report else None, clock)
+        return replace(outcome, remarks=remarks)
 
 
 def begin(

@@ -15,6 +15,7 @@ from cadgraph._io.progress import Progress, quiet
 from cadgraph.config import Config
 from cadgraph.labelers.base import AskingLabeler, Labeler, Labeling, label_parts
 from cadgraph.labelers.corrections import prepare_corrections
+from cadgraph.labelers.former import settings_with
 from cadgraph.labelers.precedence import SettledLabels, lay_corrections, lay_known
 from cadgraph.labelers.registry import labeler_of
 from cadgraph.model.analysis import Analysis
@@ -129,6 +130,7 @@ class Session:
         config, tree = config or Config(), vocabulary or default_vocabulary()
         config = as_read(scene, config)
         check_asked(tree, labeler, labels, corrections)
+        config = settings_with(config, labeler)
         history = History.of(corrections) if history is None else history
         analysis = lay_ground(analyse(scene, config, progress, crew), history.in_force, config)
         progress("label", 0)
@@ -434,7 +436,7 @@ def _carried(labeling: Labeling, before: Parts, after: Parts) -> Labeling:
     """What was said of parts, for parts that others may have been made of since: each by its largest mesh."""
     number = {path: part for part, path in enumerate(before.scene.paths)}
     rows = [number.get(path) for path in after.scene.paths]
-    known = labeling.probabilities
+    known, sure = labeling.probabilities, labeling.sure
     if known is not None:
         values = np.zeros((len(rows), known.values.shape[1]))
         for part, row in enumerate(rows):
@@ -447,6 +449,7 @@ def _carried(labeling: Labeling, before: Parts, after: Parts) -> Labeling:
         guesses=tuple(() if row is None else labeling.guesses[row] for row in rows),
         answers=tuple(None if row is None else labeling.answers[row] for row in rows),
         thresholds=tuple(0.0 if row is None else labeling.thresholds[row] for row in rows),
+        sure=tuple(0.0 if row is None else sure[row] for row in rows) if isinstance(sure, tuple) else sure,
         probabilities=known,
     )
 
