@@ -194,8 +194,10 @@ class _Note:
         if self._silent or time.monotonic() - self._last < _EVERY:
             return
         self._last = time.monotonic()
-        done = tally.asked + tally.known
-        err.print(f"asked {done:,} of {tally.total:,}, {tally.failed:,} failed, ${tally.cost:.2f} so far")
+        # One that is asked again is the same question.
+        done = tally.asked + tally.known - tally.again
+        cost = f", ${tally.cost:.2f} so far" if tally.cost else ""
+        err.print(f"asked {done:,} of {tally.total:,}, {tally.failed:,} failed{cost}")
 
 
 def _confirmed(progress: Any, yes: bool, estimate: Any) -> bool:

@@ -164,6 +164,23 @@ def test_nothing_is_asked_before_the_estimate_is_confirmed():
     assert shown[0].cost > 0
 
 
+def test_whoever_stops_it_reads_that_answers_are_kept():
+    knows, count = plates.oracle(PARTS), iter(range(100))
+
+    def answer(text):
+        if next(count) == 4:
+            raise KeyboardInterrupt
+        return knows(text)
+
+    cache = Cache(":memory:")
+    with pytest.raises(KeyboardInterrupt) as stop:
+        label(labeler_of(answer, cache=cache)[0])
+    assert stop.value.__notes__ == ["the answers that came are kept, the same command goes on from there"]
+    again, told = labeler_of(plates.oracle(PARTS), cache=cache)
+    label(again)
+    assert len(told.asked) <= 2
+
+
 def test_what_was_answered_once_is_not_asked_again():
     cache = Cache(":memory:")
     first, _ = labeler_of(plates.oracle(PARTS), cache=cache)

@@ -131,6 +131,10 @@ class LvlmLabeler:
             settled = self._ask(round_, planned)
             self._again(round_, settled)
             self._doubted(round_, settled)
+        except BaseException as stop:
+            if self.tally.asked:
+                stop.add_note("the answers that came are kept, the same command goes on from there")
+            raise
         finally:
             self.asking.answerer.close()
         self._refuse_silence(round_, settled)
