@@ -327,6 +327,14 @@ def test_several_corrections_are_one_and_are_undone_and_listed(capsys, folder, s
     assert told["lost"] == []
 
 
+def test_all_units_keep_their_numbers(capsys, folder):
+    command(capsys, "correct", folder, "--label", "/a=handwheel", "--no-report")
+    assert "V-001 keeps its tag" in command(capsys, "correct", folder, "--keep-tags", "--no-report")[1]
+    assert "each that there is keeps it" in refused(capsys, "correct", folder, "--keep-tags")
+    command(capsys, "correct", folder, "--undo", "--no-report")
+    assert "V-001 keeps" in command(capsys, "correct", folder, "--keep-tags", "--no-report")[1]
+
+
 def test_bad_corrections_end_in_one_line(capsys, folder):
     assert "--tag V-001=V-4711" in refused(capsys, "correct", folder)
     assert "one of --undo" in refused(capsys, "correct", folder, "--undo", "--tag", "V-001=x")

@@ -157,7 +157,6 @@ def test_a_device_that_labels_missed_is_not_found_again_where_it_was_cut_off():
         ({"kind": "merge", "parts": [part(0)]}, "already"),
         ({"kind": "merge", "parts": [part(0), part(4)]}, "too far apart"),
         ({"kind": "direction", "source": "V-001", "target": "T-001"}, "nothing connects"),
-        ({"kind": "tag", "unit": "V-001", "tag": "V-001"}, "is called so already"),
         ({"kind": "tag", "unit": "V-001", "tag": "b 1"}, "another unit is called b 1"),
         ({"kind": "join", "first": "part-00000", "second": "V-001"}, "V-001 is a unit, and parts join: name that one"),
         ({"kind": "tag", "unit": "V-001", "tag": " "}, "at least one letter"),
@@ -194,6 +193,22 @@ def test_two_units_change_tags_with_each_other_in_one_correction():
         "V-001": before["T-001"], "T-001": before["V-001"],
     }  # fmt: skip
     assert not session.lost
+
+
+def test_units_that_keep_their_numbers_keep_them_when_one_before_them_is_gone():
+    sketch = line_with_a_gap()
+    sketch.add(block((5, 0, 0), 0.2), *VALVE, source="author")
+    session = session_of(sketch)
+    gone, kept = session.graph.unit("V-001"), session.graph.unit("V-002")
+    away = {"kind": "label", "part": gone.parts[0], "group": "Structural element", "name": "beam", "this_only": True}
+    assert session.apply([away]).message.count("V-002") >= 1
+    assert session.graph.unit_of(session.graph.part(kept.parts[0])).tag == "V-001"
+    session.undo()
+    assert session.apply([{"kind": "tag", "unit": "V-002", "tag": "V-002"}]).message == "V-002 keeps its tag"
+    with pytest.raises(ValueError, match="is called so already, and keeps it"):
+        session.apply([{"kind": "tag", "unit": "V-002", "tag": "V-002"}])
+    session.apply([away])
+    assert session.graph.unit_of(session.graph.part(kept.parts[0])).tag == "V-002"
 
 
 def test_one_correction_says_one_thing_of_each(refusing):

@@ -40,6 +40,9 @@ def correct(
         list[str] | None,
         typer.Option("--tag", metavar="UNIT=TAG", help="What the plant calls a unit: V-001=V-4711. May be repeated."),
     ] = None,
+    keep_tags: Annotated[
+        bool, typer.Option("--keep-tags", help="Units keep the tags that they have now, whatever is corrected later.")
+    ] = False,
     merge: Annotated[_Pair, _pair("--merge", "A B", "Two units are one; or a part belongs to a unit.")] = None,
     split: Annotated[
         list[str] | None,
@@ -80,12 +83,13 @@ def correct(
     into it applies again; 'cadgraph corrections' lists all.
     """
     from cadgraph.model.graph import SceneGraph
-    from cadgraph.session.correct import apply_edits, step_back_or_forth
+    from cadgraph.session.correct import apply_edits, number_keepers, step_back_or_forth
 
     graph = SceneGraph.load(folder)
     edits = [
         *_labels(label or [], forget or [], this_only),
         *(dict(zip(("kind", "unit", "tag"), ("tag", *_sides("tag", one)), strict=True)) for one in tag or []),
+        *(number_keepers(folder) if keep_tags else []),
         *_units(graph, merge, split),
         *_joints(graph, join, cut),
         *(_flow(one) for one in flow or []),

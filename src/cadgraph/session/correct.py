@@ -12,7 +12,7 @@ from cadgraph._io.results import new_results
 from cadgraph._io.run_folder import results_folder
 from cadgraph.load.source_file import find_source
 from cadgraph.model.corrections import read_history
-from cadgraph.model.edits import Correction
+from cadgraph.model.edits import Correction, Tag
 from cadgraph.model.given_labels import split_label
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Part
@@ -23,7 +23,7 @@ from cadgraph.session.run import Clock, Outcome, stage_graph, write_rest
 from cadgraph.session.session import Change, Session, changed_parts
 from cadgraph.session.told import tell_flow, tell_lines, tell_renamed, tell_units
 
-__all__ = ["Amendment", "amend", "apply_edits", "step_back_or_forth"]
+__all__ = ["Amendment", "amend", "apply_edits", "number_keepers", "step_back_or_forth"]
 
 
 _DISAGREE = ("flow-contradiction", "flow-disagrees")
@@ -134,6 +134,27 @@ def apply_edits(
     """
     before, target = _opened(folder)
     return _changed(before, target, lambda session: session.apply(edits, who=who, why=why), scene, report, progress)
+
+
+def number_keepers(folder: str | Path) -> list[Mapping[str, Any]]:
+    """The edits by which units keep the tags that they have, whatever is corrected later; see ``apply_edits``.
+
+    Tags that no plant gave are numbers in the order of the parts: where a correction takes one unit away, those after
+    it move up.
+
+    Args:
+        folder: what ``cadgraph build`` wrote.
+
+    Raises:
+        ValueError: all units keep their tags already, or there is none.
+        FormatError: the folder holds no graph.
+    """
+    graph, target = _opened(folder)
+    given = {edit.tag for edit in read_history(target).in_force if isinstance(edit, Tag)}
+    edits = [{"kind": "tag", "unit": unit.id, "tag": unit.tag} for unit in graph.units() if unit.tag not in given]
+    if not edits:
+        raise ValueError(f"{target}: no unit whose tag could change: each that there is keeps it by a correction")
+    return edits
 
 
 def step_back_or_forth(

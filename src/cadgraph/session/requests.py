@@ -153,12 +153,14 @@ class Requests:
         analysis: of its scene.
         vocabulary: the labels in use.
         corrected: source paths of the parts whose own label is corrected.
+        tags: that corrections in force give.
     """
 
     graph: SceneGraph
     analysis: Analysis
     vocabulary: Vocabulary
     corrected: Collection[str]
+    tags: Collection[str] = ()
 
     def anchor(self, requests: Sequence[EditRequest]) -> tuple[tuple[Edit, ...], str]:
         """The edits that requests ask for, and all of them in words.
@@ -240,15 +242,16 @@ class Requests:
 
     def _tag(self, request: TagRequest) -> tuple[Edit, str]:
         unit, tag = self.graph.unit(request.unit), check_tag(request.tag)
-        if tag == unit.tag:
-            raise ValueError(f"{unit.tag} is called so already")
+        if tag == unit.tag and tag in self.tags:
+            raise ValueError(f"{unit.tag} is called so already, and keeps it")
         if _IDS.fullmatch(tag):
             raise ValueError(f"tag {tag!r}: ids of the graph and numbers of lines look like this; give it another one")
         if "," in tag:
             raise ValueError(f"tag {tag!r}: a comma stands between tags; give it one without")
         if (mark := next((mark for mark in _MARKS if mark in tag), None)) is not None:
             raise ValueError(f"tag {tag!r}: {mark} stands between names where commands take them; give it one without")
-        return Tag(self._anchors_of(unit), tag), f"{unit.tag} is called {tag}"
+        words = f"{unit.tag} keeps its tag" if tag == unit.tag else f"{unit.tag} is called {tag}"
+        return Tag(self._anchors_of(unit), tag), words
 
     def _refuse_tags(self, requests: Sequence[TagRequest]) -> None:
         """Refuses a tag that another unit would have once all are given: two units may change tags with each other."""

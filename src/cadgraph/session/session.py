@@ -220,8 +220,9 @@ class Session:
         """
         requests = read_requests(edits)
         corrected = {edit.mesh for edit in self.corrections if isinstance(edit, Correction)}
+        tags = {edit.tag for edit in self.corrections if isinstance(edit, Tag)}
         graph = self.graph
-        anchored, what = Requests(graph, self.analysis, self.vocabulary, corrected).anchor(requests)
+        anchored, what = Requests(graph, self.analysis, self.vocabulary, corrected, tags).anchor(requests)
         history = self._history.do(anchored, what, when=_now(), who=who, why=why)
         named = {getattr(request, "part", None) for request in requests}
         only = named.pop() if len(named) == 1 else None
