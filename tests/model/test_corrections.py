@@ -230,7 +230,7 @@ def test_a_damaged_row_is_refused_in_one_line_that_names_it(tmp_path, change):
     file = tmp_path / "corrections.json"
     rows = [ROW, {**ROW, **change}]
     file.write_text(json.dumps({"format": "cadgraph-corrections", "version": 1, "corrections": rows}))
-    with pytest.raises(LabelError, match="correction 1") as caught:
+    with pytest.raises(LabelError, match="correction 2") as caught:
         read_corrections(file, default_vocabulary())
     assert "\n" not in str(caught.value)
     assert str(file) in str(caught.value)
@@ -299,7 +299,7 @@ def test_every_bad_field_of_every_edit_ends_in_one_line(tmp_path):
     refused = 0
     for edit in bad_edits():
         file = written(tmp_path, EVENT, {**EVENT, "id": 8, "edits": [EDITS["cut"], edit]})
-        with pytest.raises(LabelError, match="correction 1: edit 1") as caught:
+        with pytest.raises(LabelError, match="correction 2: edit 2") as caught:
             read_history(file)
         assert "\n" not in str(caught.value)
         assert len(str(caught.value)) < 500

@@ -5,7 +5,7 @@ import pytest
 
 from cadgraph.config import read_config
 from cadgraph.errors import LabelError
-from cadgraph.model.given_labels import GivenLabel, read_labels
+from cadgraph.model.given_labels import GivenLabel, read_labels, split_label
 from cadgraph.model.vocabulary import default_vocabulary, read_vocabulary
 
 VOCABULARY = default_vocabulary()
@@ -64,6 +64,17 @@ def test_what_is_malformed_is_named(tmp_path, content, word):
 def test_a_csv_without_its_columns_is_named(tmp_path):
     with pytest.raises(LabelError, match="'group'"):
         read(tmp_path, "mesh,name\n/a,pipe\n", "labels.csv")
+
+
+def test_our_own_table_of_parts_is_told_from_one_of_labels(tmp_path):
+    with pytest.raises(LabelError, match=r"a table of parts.*--to labels-csv"):
+        read(tmp_path, "part,group,name,largest_mesh\npart-00000,Tank,,/a\n", "parts.csv")
+
+
+@pytest.mark.parametrize("text", ["pipe assembly/PIPE", "Pipe Assembly/pipe"])
+def test_a_label_in_other_letters_is_suggested(text):
+    with pytest.raises(LabelError, match="did you mean 'Pipe assembly/pipe'"):
+        split_label(text, VOCABULARY)
 
 
 def test_a_missing_file_is_named(tmp_path):

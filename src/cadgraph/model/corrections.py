@@ -341,7 +341,7 @@ class CorrectionsFile:
         """Refuses what could not be read again; of rows that were there before that is known."""
         first = min(self._readable, len(rows))
         try:
-            for k, row in enumerate(rows[first:], first):
+            for k, row in enumerate(rows[first:], first + 1):
                 check_row(row, f"{self.file}: correction {k}")
         except LabelError as error:
             raise OutputError(f"{error}, so it can't be kept") from None
@@ -376,6 +376,6 @@ def _check_labels(action: Action, vocabulary: Vocabulary | None, file: Path) -> 
         if isinstance(edit, Correction) and vocabulary is not None and not vocabulary.holds(edit.group, edit.name):
             label = spell_label(edit.group, edit.name)
             raise LabelError(
-                f"{file}: correction {action.id - 1}: {label!r} is not in the vocabulary; build with the --vocabulary "
+                f"{file}: correction {action.id}: {label!r} is not in the vocabulary; build with the --vocabulary "
                 "that has it, or take the row out"
             )

@@ -123,11 +123,11 @@ def read_document(content: bytes, file: Path) -> list[dict[str, Any]]:
     if not isinstance(rows, list) or len(rows) > MOST:
         raise LabelError(f"{file}: {key!r} is no list of at most {MOST:,}; remove the file to build without")
     if version == 1:
-        return [_first_version(row, k, f"{file}: correction {k}") for k, row in enumerate(rows)]
-    events = [_event(row, f"{file}: correction {k}") for k, row in enumerate(rows)]
+        return [_first_version(row, k, f"{file}: correction {k}") for k, row in enumerate(rows, 1)]
+    events = [_event(row, f"{file}: correction {k}") for k, row in enumerate(rows, 1)]
     for k, event in enumerate(events):
         if event["id"] <= (events[k - 1]["id"] if k else 0):
-            raise LabelError(f"{file}: correction {k}: 'id' must grow from row to row")
+            raise LabelError(f"{file}: correction {k + 1}: 'id' must grow from row to row")
     return events
 
 
@@ -135,7 +135,7 @@ def _first_version(row: Any, number: int, place: str) -> dict[str, Any]:
     """A label of version 1, which knew nothing else."""
     edit = _label(row, _anchor(row, place), place)
     told = {"when": "", "who": "", "why": "", "what": describe(edit)}
-    return {"id": number + 1, **told, "edits": (edit,), "kind": "do", "of": None}
+    return {"id": number, **told, "edits": (edit,), "kind": "do", "of": None}
 
 
 def _event(row: Any, place: str) -> dict[str, Any]:
@@ -148,7 +148,7 @@ def _event(row: Any, place: str) -> dict[str, Any]:
         rows = row.get("edits")
         if not isinstance(rows, list) or not 0 < len(rows) <= MOST:
             raise LabelError(f"{place}: 'edits' must be a list of at least one and at most {MOST:,}")
-        edits = tuple(_edit(each, f"{place}: edit {k}") for k, each in enumerate(rows))
+        edits = tuple(_edit(each, f"{place}: edit {k}") for k, each in enumerate(rows, 1))
     of = None if kind == "do" else _count(row, "of", place)
     return {"id": _count(row, "id", place), **told, "edits": edits, "kind": kind, "of": of}
 
@@ -221,7 +221,7 @@ def _anchors(row: Mapping[str, Any], key: str, place: str, least: int = 0) -> tu
     rows = row.get(key)
     if not isinstance(rows, list) or not least <= len(rows) <= MOST:
         raise LabelError(f"{place}: {key!r} must be a list of at least {least} and at most {MOST:,} parts")
-    return tuple(_anchor(each, f"{place}: {key!r} {k}") for k, each in enumerate(rows))
+    return tuple(_anchor(each, f"{place}: {key!r} {k}") for k, each in enumerate(rows, 1))
 
 
 def _text(row: Mapping[str, Any], key: str, place: str, empty: bool = False, most: int = _MOST_TEXT) -> str:

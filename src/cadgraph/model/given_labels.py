@@ -18,6 +18,7 @@ from cadgraph.model.vocabulary import Vocabulary
 
 __all__ = ["GivenLabel", "read_labels", "split_label"]
 
+_OF_PARTS = "largest_mesh"  # a column of our own table of parts, which has no meshes
 _MAX_LENGTH = 4096  # of a path or label; longer is no label but damage
 
 
@@ -76,6 +77,11 @@ def _json_rows(text: str, source: Path) -> Iterable[tuple[str, Any]]:
 def _csv_rows(text: str, source: Path) -> Iterable[tuple[str, Any]]:
     reader = csv.DictReader(text.splitlines())
     missing = {"mesh", "group"} - set(reader.fieldnames or ())
+    if _OF_PARTS in (reader.fieldnames or ()):
+        raise LabelError(
+            f"{source}: a table of parts, and labels are given to meshes; 'cadgraph export FOLDER --to labels-csv' "
+            "writes the labels of a graph"
+        )
     if missing:
         raise LabelError(f"{source}: no column {sorted(missing)[0]!r}; the first line must name mesh, group, name")
     try:
@@ -136,11 +142,12 @@ def split_label(text: str, vocabulary: Vocabulary | None) -> tuple[str, str | No
 
 def _closest(text: str, vocabulary: Vocabulary) -> list[str]:
     """The labels that are spelt most like what is none, at most three."""
-    _, slash, name = (piece.strip() for piece in text.partition("/"))
+    _, slash, name = (piece.strip() for piece in text.casefold().partition("/"))
     spelt = [f"{one}/{each}" for one, content in vocabulary.groups.items() for each in content.names]
-    close = difflib.get_close_matches(text, spelt, 3) or difflib.get_close_matches(name, spelt, 3, 0.4)
+    folded = {each.casefold(): each for each in spelt}
+    close = difflib.get_close_matches(text.casefold(), folded, 3) or difflib.get_close_matches(name, folded, 3, 0.4)
     if close or slash:
-        return close
+        return [folded[each] for each in close]
     # A name alone is compared with names alone; the group before them would make all of them unlike it.
     near = {each.rpartition("/")[2].casefold(): each for each in (*vocabulary.groups, *spelt)}
     return [near[each] for each in difflib.get_close_matches(text.strip().casefold(), near, 3)]
