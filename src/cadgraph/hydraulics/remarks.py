@@ -27,6 +27,7 @@ def remarks_of(balance: Balance, cavitating: Collection[str], unknown: int) -> I
     yield from _of_pumps(balance, cavitating)
     yield from _of_relief_valves(balance)
     yield from _of_tanks(balance)
+    yield from _of_sources(balance)
     boiling = 0 if cavitating else _n_boiling(balance)
     if boiling:
         yield f"the column parts at {boiling} places, as the pressure falls to that at which the fluid boils"
@@ -80,6 +81,16 @@ def _of_tanks(balance: Balance) -> Iterator[str]:
             dry = [nozzle.port for nozzle in balance.outlets(tag) if nozzle.height >= tank.bottom + level]
             if dry:
                 yield f"{tag} is down to its outlet {', '.join(dry)}: nothing leaves it there"
+
+
+def _of_sources(balance: Balance) -> Iterator[str]:
+    circuit, flow = balance.circuit, balance.solution.flow
+    for place, end in balance.scenario.ends.items():
+        node = balance.places.told.get(place)
+        if end.role == "source" and node is not None:
+            into = float(flow[circuit.end == node].sum() - flow[circuit.start == node].sum())
+            if into > TRICKLE:
+                yield f"{place} is a source, and {into * 3600:.2f} m3/h flow into it: more stands against it than it has"
 
 
 def _n_boiling(balance: Balance) -> int:
