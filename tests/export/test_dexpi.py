@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from cadgraph.errors import FormatError
 from cadgraph.export import export_graph
 from cadgraph.export.dexpi import read_dexpi, write_dexpi
+from cadgraph.export.dexpi.terms import kind_of, unit_type_of
 from cadgraph.model.records import Connected, Junction, Terminal
 from cadgraph.query import find_isolation, find_lines, trace
 from cadgraph.query.compare import compare
@@ -102,6 +103,28 @@ def test_kinds_of_valves_come_back(word, tmp_path):
 def test_kinds_of_ends_come_back(kind, tmp_path):
     graph = made(("T-001.N1 X1",), [("X1", kind)])
     assert there_and_back(graph, tmp_path).of_layer(Terminal)[0].kind == kind
+
+
+@pytest.mark.parametrize(
+    ("name", "custom", "unit_type", "kind"),
+    [
+        ("CustomCheckValve", "", "equipment", "check valve"),
+        ("CustomCheckValve", "DN 50 PN 16", "equipment", "check valve"),
+        ("CustomCheckValve", "lift check valve", "equipment", "lift check valve"),
+        ("CustomSafetyValveOrFitting", "valve", "equipment", "safety valve"),
+        ("CustomSafetyValveOrFitting", "relief valve", "equipment", "relief valve"),
+        ("ReciprocatingPump", "", "pump", "reciprocating pump"),
+        ("RotaryPump", "", "pump", "rotary pump"),
+        ("CustomPump", "", "pump", None),
+        ("Vessel", "", "tank", None),
+        ("ProcessColumn", "", "tank", None),
+        ("CustomFilter", "strainer", "equipment", "strainer"),
+    ],
+)
+def test_classes_of_the_standard_are_what_they_say(name, custom, unit_type, kind):
+    assert kind_of(name, custom) == kind
+    if "Valve" not in name:
+        assert unit_type_of(name, "equipment") == unit_type
 
 
 def test_a_change_of_size_at_a_valve_begins_a_segment(tmp_path):

@@ -186,3 +186,16 @@ def test_an_unknown_tag_is_refused_with_near_ones():
         trace(pumping(), "V-0044")
     with pytest.raises(ValueError, match="'cadgraph lines' prints"):
         trace(pumping(), "&&&")
+
+
+def test_a_way_with_the_flow_that_nobody_knows_is_no_flat_no():
+    found = find_way(series("unknown"), "T-001", "V-002", "downstream")
+    assert (found.steps, [(h.after, h.towards, h.distance) for h in found.halts]) == (
+        (), [("T-001", "V-001", 0.0), ("V-001", "V-002", 1.5)],
+    )  # fmt: skip
+    no, _, but, *rows = way_lines(found, "T-001", "V-002")
+    assert no == "no way downstream along the pipes from T-001 to V-002 that is known to flow so was found"
+    assert but == "there is one if it flows so here, where the direction is unknown:"
+    assert ["T-001 - V-001" in rows[0], "V-001 - V-002" in rows[1], len(rows)] == [True, True, 2]
+    assert len(trace_values(found)["halts"]) == 2
+    assert find_way(series(), "V-002", "T-001", "downstream").halts == ()

@@ -90,7 +90,7 @@ def _of_sources(balance: Balance) -> Iterator[str]:
         if end.role == "source" and node is not None:
             into = float(flow[circuit.end == node].sum() - flow[circuit.start == node].sum())
             if into > TRICKLE:
-                yield f"{place} is a source, and {into * 3600:.2f} m3/h flow into it: more stands against it than it has"
+                yield f"{place} is a source, and {into * 3600:.2f} m3/h flow into it: more stands against it"
 
 
 def _n_boiling(balance: Balance) -> int:

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Literal
 
 from cadgraph.model.records import Unit
 from cadgraph.query.network import Network
 
-__all__ = ["Duty", "blocked_relief", "duty_of", "likely_kinds", "suspect_of"]
+__all__ = ["Duty", "Suspect", "blocked_relief", "duty_of", "likely_kinds", "suspect_of"]
 
 Duty = Literal["shuts off", "likely", "unknown", "check", "relief", "control", "other"]
 """``likely``: its kind is open, but all that it may be shuts off; ``other``: a kind that isn't known to shut off."""
@@ -30,6 +31,7 @@ _DUTIES: tuple[tuple[tuple[str, ...], Duty], ...] = (
 )  # fmt: skip
 # A valve whose kind is open shuts off where kinds that do are together as sure as a kind must be to be stated (ours).
 _SURE = 0.85
+_OPERATORS = frozenset({"handwheel", "lever", "gearbox", "actuator"})
 
 
 def duty_of(network: Network, place: str) -> Duty | None:
@@ -59,25 +61,53 @@ def likely_kinds(network: Network, place: str) -> str:
     return ", ".join(f"{kind} {sure:.0%}" for kind, sure in guesses)
 
 
-def suspect_of(network: Network, place: str) -> tuple[str, str] | None:
-    """The pump and the next valve, where a valve of unknown kind stands between them: a check valve, most likely.
+@dataclass(frozen=True)
+class Suspect:
+    """Why a valve of unknown kind is likely a check valve.
+
+    Args:
+        pump: id of the pump that it protects.
+        valve: id of the other valve there, which shuts the pump off.
+        outermost: whether the other one stands behind it, seen from the pump.
+    """
+
+    pump: str
+    valve: str
+    outermost: bool
+
+
+def suspect_of(network: Network, place: str) -> Suspect | None:
+    """Why a valve of unknown kind at a pump is a check valve, most likely; None where nothing says so.
+
+    It is the one of two valves that a pump pushes through at which nothing to turn was found: the first one, or the
+    second one where the first has something.
 
     Args:
         network: of a finished graph.
         place: id of a valve.
-
-    Returns:
-        The ids of the pump that it stands right behind, on a side that the pump isn't known to draw from, and of the
-        valve right behind it; None where it isn't so.
     """
-    if duty_of(network, place) != "unknown" or network.stands_aside(place):
+    if duty_of(network, place) != "unknown" or network.stands_aside(place) or _has_operator(network, place):
         return None
     before = _met(network, place, "pump")
-    if before is None:
-        return None
-    pump, port = before
-    behind = _met(network, place, "valve", port)
-    return None if behind is None else (pump, behind[0])
+    if before is not None:
+        pump, port = before
+        behind = _met(network, place, "valve", port)
+        return None if behind is None else Suspect(pump, behind[0], True)
+    for arc in network.main_arcs(place):
+        between = _met(network, place, "valve", arc.index)
+        pumped = _met(network, between[0], "pump") if between and _has_operator(network, between[0]) else None
+        if between is not None and pumped is not None:
+            return Suspect(pumped[0], between[0], False)
+    return None
+
+
+def _has_operator(network: Network, place: str) -> bool:
+    """Whether something that works it was found at a valve: what turns by its shape, or a part that is called so."""
+    node = network.places[place]
+    if not isinstance(node, Unit):
+        return False
+    labels = (network.graph.part(part).label for part in node.parts)
+    return node.mechanism is not None or any(label is not None and label.name in _OPERATORS for label in labels)
 
 
 def blocked_relief(network: Network, place: str) -> tuple[str, ...]:

@@ -254,8 +254,13 @@ def _unknown(network: Network, place: str) -> str:
     """Why a valve of unknown kind isn't relied on."""
     suspect = suspect_of(network, place)
     if suspect is not None:
-        pump, behind = (network.name(one) for one in suspect)
-        return f"kind not known; right behind {pump}, with {behind} behind it: likely a check valve"
+        pump, other = network.name(suspect.pump), network.name(suspect.valve)
+        if suspect.outermost:
+            return f"kind not known; right behind {pump}, with {other} behind it: likely a check valve"
+        return (
+            f"kind not known; nothing to turn was found at it, as it was at {other} between it and {pump}: "
+            "likely a check valve"
+        )
     likely = likely_kinds(network, place)
     return f"kind not known, may be {likely}" if likely else "kind not known"
 

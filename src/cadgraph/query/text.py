@@ -12,7 +12,7 @@ from cadgraph.query.doubt import Doubt, bare_nozzles, few_ports, likely_joints, 
 from cadgraph.query.isolate import PASSED_OVER, Isolation
 from cadgraph.query.lines import Line
 from cadgraph.query.network import Network
-from cadgraph.query.trace import Step, Trace
+from cadgraph.query.trace import Halt, Step, Trace
 
 __all__ = [
     "LINE_COLUMNS",
@@ -145,7 +145,7 @@ def trace_lines(found: Trace, *, hints: bool = True) -> list[str]:
     if found.halts:
         hint = " (--unknown follows it both ways)" if hints else ""
         told += ["", f"not followed, as the direction of flow is unknown{hint}:"]
-        told += aligned([(f"{h.distance:.2f} m", f"{h.after} - {h.towards}", h.line or "") for h in found.halts], (0,))
+        told += _halt_rows(found.halts)
     loops = [f"{r.after} -> {r.to}" for r in found.returns if r.loop]
     meets = [f"{r.after} -> {r.to}" for r in found.returns if not r.loop]
     told += ["", f"comes round in a loop: {', '.join(loops)}"] if loops else []
@@ -153,11 +153,18 @@ def trace_lines(found: Trace, *, hints: bool = True) -> list[str]:
     return told + (["", *_doubt_lines("this may not be all:", found.doubts)] if found.doubts else [])
 
 
+def _halt_rows(halts: Sequence[Halt]) -> list[str]:
+    return aligned([(f"{h.distance:.2f} m", f"{h.after} - {h.towards}", h.line or "") for h in halts], (0,))
+
+
 def way_lines(found: Trace, start: str, end: str) -> list[str]:
     """A way from one node to another in order, or that there is none."""
     manner = f" {found.direction}" if found.direction else ""
     if not found.steps:
-        told = [f"no way{manner} along the pipes from {start} to {end} was found"]
+        known = " that is known to flow so" if found.halts else ""
+        told = [f"no way{manner} along the pipes from {start} to {end}{known} was found"]
+        if found.halts:
+            told += ["", "there is one if it flows so here, where the direction is unknown:", *_halt_rows(found.halts)]
         return told + (_doubt_lines("there may be one all the same:", found.doubts) if found.doubts else [])
     rows = [("distance", "", "", "line", "")]
     for step in found.steps:

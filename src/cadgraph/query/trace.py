@@ -197,7 +197,8 @@ def find_way(graph: SceneGraph | Network, start: str, end: str, direction: Direc
         direction: go only with the flow (``downstream``) or only against it; None goes both ways.
 
     Returns:
-        The way; without steps where none is known, with what makes that doubtful.
+        The way; without steps where none is known, with what makes that doubtful. Where there would be one were it
+        known to flow so through some connections, these are its halts.
 
     Raises:
         Unconnected: no line was found at one of the two, which is a ``ValueError``: that is no answer.
@@ -212,7 +213,8 @@ def find_way(graph: SceneGraph | Network, start: str, end: str, direction: Direc
     distances, arcs_to = network.shortest(first, network.follower(direction))
     if last not in arcs_to:
         others, _ = network.shortest(last, network.follower(None))
-        return Trace(first, direction, (), doubts=open_sides(network, [*distances, *others]))
+        halts = _unknown_on_the_way(network, first, last, direction) if direction else ()
+        return Trace(first, direction, (), halts=halts, doubts=open_sides(network, [*distances, *others]))
     line_of = _line_of(network)
     arcs = arcs_to[last]
     steps = [_step(network, first, (), 0.0, line_of, first == last)]
@@ -220,6 +222,24 @@ def find_way(graph: SceneGraph | Network, start: str, end: str, direction: Direc
         gone = steps[-1].distance + (arc.length or 0.0)
         steps.append(_step(network, arc.end, arcs[:number], gone, line_of, arc.end == last))
     return Trace(first, direction, tuple(steps), connections=tuple(arc.index for arc in arcs))
+
+
+def _unknown_on_the_way(network: Network, first: str, last: str, direction: Direction) -> tuple[Halt, ...]:
+    """The connections of unknown direction on the shortest way that goes against no known flow; none without one."""
+    distances, arcs_to = network.shortest(first, network.follower(direction, True))
+    line_of = _line_of(network)
+    return tuple(
+        Halt(
+            after=network.name(arc.start),
+            towards=network.name(arc.end),
+            line=line_of.get(arc.index),
+            distance=distances[arc.start],
+            place=arc.start,
+            connection=arc.index,
+        )
+        for arc in arcs_to.get(last, ())
+        if arc.flow == "unknown"
+    )
 
 
 def _step(

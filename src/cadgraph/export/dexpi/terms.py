@@ -71,9 +71,9 @@ _CUSTOM_VALVES = (
 )  # fmt: skip
 _EQUIPMENT = (("exchanger", "CustomHeatExchanger"), ("filter", "CustomFilter"), ("strainer", "CustomFilter"))
 
-_TYPES = {
-    "Tank": "tank", "PressureVessel": "tank", "CustomVessel": "tank", "CentrifugalPump": "pump", "CustomPump": "pump",
-}  # fmt: skip
+_VESSELS = frozenset({"Tank", "Vessel", "PressureVessel", "CustomVessel", "ProcessColumn", "Silo"})
+_TYPES_IN_WORDS = {"CustomCheckValve": ("check", "non-return"), "CustomSafetyValveOrFitting": ("safety", "relief")}
+"""Custom classes that say what a valve is, and the words that say the same."""
 _KINDS = {name: f"{word} valve" for word, name in _VALVES}
 
 
@@ -104,15 +104,19 @@ def term_of_terminal(terminal: Terminal) -> Term:
 
 def unit_type_of(name: str, default: str) -> str:
     """The type of unit of a component class of equipment."""
-    return _TYPES.get(name, default)
+    return "tank" if name in _VESSELS else "pump" if name.endswith("Pump") else default
 
 
 def kind_of(name: str, custom: str) -> str | None:
     """The kind that a class stands for, in our words."""
+    words = _TYPES_IN_WORDS.get(name)
+    if words is not None and not any(word in custom.casefold() for word in words):
+        # A type of somebody's own, as "DN 50 PN 16", says less than the class.
+        return f"{words[0]} valve"
     if custom:
         return None if custom in ("valve", "pump", "tank", "equipment") else custom
-    if name == "CentrifugalPump":
-        return "centrifugal pump"
+    if name.endswith("Pump") and not name.startswith("Custom"):
+        return " ".join(re.findall("[A-Z][a-z]*", name)).lower()
     if name.endswith("Valve") and name not in _KINDS and not name.startswith(("Custom", "Operated")):
         return " ".join(re.findall("[A-Z][a-z]*", name)).lower()
     return "pressure vessel" if name == "PressureVessel" else _KINDS.get(name)
