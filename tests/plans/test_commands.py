@@ -36,7 +36,7 @@ def test_a_round_is_told_what_is_not_plain_first(folder, capsys):
     assert lines[0].startswith("round of 3 goals from V-001 and back: ")
     assert lines[0].endswith("no order is shorter (walks estimated as straight lines)")
     assert lines[1].startswith("! V-003 takes a ladder, lift or other access")
-    assert any("close V-002 (ball valve): its operator is 1.2 m above the platform" in line for line in lines)
+    assert any("close V-002 (ball valve): its middle is 1.2 m above the platform" in line for line in lines)
 
 
 def test_a_round_as_json_keeps_the_rules_when_it_is_checked(folder, capsys):

@@ -67,7 +67,7 @@ def test_what_is_out_of_reach_takes_a_ladder_or_lift():
     known, planned = made("close V-003")
     assert doings(planned) == ["walk V-003", "set up V-003", "close V-003"]
     assert doubt_lines(known, planned)[0] == (
-        "! V-003 takes a ladder, lift or other access: its operator is 3.5 m above the ground, out of reach"
+        "! V-003 takes a ladder, lift or other access: its middle is 3.5 m above the ground, out of reach"
     )
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
+from cadgraph.model.records import Terminal
 from cadgraph.plans.goals import Goal
 from cadgraph.query.network import Network
 from cadgraph.query.what_if import Consequence, WhatIf, what_if
@@ -21,7 +22,7 @@ class Change:
         fed_again: tags of what is fed again.
         unknown: tags of what may lose or get it, or not.
         notes: what should be known about it, a sentence each.
-        harm: those of them that tell what may break a pump.
+        harm: those of them that tell what may break a pump, or where fluid leaves the plant.
     """
 
     cut_off: tuple[str, ...] = ()
@@ -63,7 +64,7 @@ def changes_of(network: Network, goals: Sequence[Goal]) -> tuple[Change, ...]:
             continue
         (shut.add if goal.action == "close" else shut.discard)(goal.unit)
         after = _asked(network, shut)
-        found.append(_closing(goal, now, after) if goal.action == "close" else _opening(goal, now, after))
+        found.append(_closing(goal, now, after) if goal.action == "close" else _opening(network, goal, now, after))
         now = after
     return tuple(found)
 
@@ -97,17 +98,28 @@ def _closing(goal: Goal, before: WhatIf | None, after: WhatIf | None) -> Change:
     )
 
 
-def _opening(goal: Goal, before: WhatIf | None, after: WhatIf | None) -> Change:
+def _opening(network: Network, goal: Goal, before: WhatIf | None, after: WhatIf | None) -> Change:
     cut, open_before = (before.cut_off, before.unknown) if before else ((), ())
     open_after = _names(after.unknown if after else ())
     freed = _names(cut) - _names(after.cut_off if after else ())
     maybe = (freed & open_after) | (_names(open_before) - open_after - {goal.name})
+    fed = freed - open_after - {goal.name}
+    ends = {one.name for one in cut if one.name in fed | maybe and _is_open_end(network, one.place)}
+    spilt = tuple(f"it flows out at {name}, an open end" for name in _in_order(cut, ends))
+    # That it cut something off or harmed a pump before is no news any more; what nobody knows of the valve itself is.
+    ended = set(_harm(before)) if before else set()
+    told = (text for text in _notes(goal, after, before, freed) if goal.name in text and text not in ended)
     return Change(
-        fed_again=_in_order(cut, freed - open_after - {goal.name}),
+        fed_again=_in_order(cut, fed),
         unknown=_in_order((*cut, *open_before), maybe),
-        # That it cut something off before is no news any more; what nobody knows of the valve itself is.
-        notes=tuple(text for text in _notes(goal, after, before, freed) if goal.name in text),
+        notes=(*spilt, *told),
+        harm=spilt,
     )
+
+
+def _is_open_end(network: Network, place: str) -> bool:
+    node = network.places[place]
+    return isinstance(node, Terminal) and node.kind == "open"
 
 
 def _reading(network: Network, goal: Goal, now: WhatIf | None) -> Change:

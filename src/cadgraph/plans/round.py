@@ -11,7 +11,7 @@ from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Point, Unit
 from cadgraph.plans.changes import Change, assumptions_of, changes_of
 from cadgraph.plans.goals import Goal
-from cadgraph.plans.stops import Spot, Stop, Terrain
+from cadgraph.plans.stops import Spot, Stop, Terrain, worked_at
 from cadgraph.plans.tour import EXACT, shortest_order
 from cadgraph.plans.walks import Leg, Walk, Walks, anywhere
 from cadgraph.query.network import Network
@@ -216,8 +216,8 @@ def _needs(known: Survey, goal: Goal, stop: Stop) -> tuple[str, ...]:
     access = stop.unit.access
     told = []
     if access is not None and stop.aid is None:
-        what = "face" if goal.action == "read" else "operator"
-        told.append(f"its {what} is {access.height:.1f} m above the {known.terrain.name(stop.spot.level)}")
+        level = known.terrain.name(stop.spot.level)
+        told.append(f"its {worked_at(stop.unit)} is {access.height:.1f} m above the {level}")
     if goal.action != "read" and "control" in (stop.unit.kind or "").casefold():
         told.append("a control valve moves by its actuator: turn it from the control room or by its handwheel")
     return tuple(told)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Place, Point, ReachedFrom, Unit
 
-__all__ = ["ANYWHERE", "Spot", "Stop", "Terrain", "Way", "spots_of"]
+__all__ = ["ANYWHERE", "Spot", "Stop", "Terrain", "Way", "spots_of", "worked_at"]
 
 _REACH = 2.0  # m above where one stands, as in the reach of a unit; what is lower is out of reach for another reason
 
@@ -82,10 +82,16 @@ class Terrain:
         """Whether the graph was built with places."""
         return bool(self.places)
 
+    @property
+    def ground_found(self) -> bool:
+        """Whether a mesh was taken for the ground; else it is thought where the plant is lowest."""
+        place = self.places.get(self.ground)
+        return place is None or bool(place.parts)
+
     def name(self, level: str) -> str:
         """A level in words."""
         if level == self.ground or level not in self.places:
-            return "ground"
+            return "ground" if self.ground_found else "lowest point of the plant"
         return self.places[level].name
 
     def stop(self, unit: Unit) -> Stop:
@@ -97,11 +103,13 @@ class Terrain:
             return Stop(unit, Spot(unit.id, self.ground, below, sure=False), None, (why,))
         level = access.place if access.place in self.places else self.ground
         unsure = [] if access.place in self.places else ["the level that it is reached from is not known"]
+        if level == self.ground and not self.ground_found:
+            unsure.append("no ground was found: heights are over the lowest point of the plant")
         aid = None
         # What is only read needs no hand at it.
         read = unit.unit_type == "gauge" and access.viewpoint is not None
         if access.reach == "out of reach" and not read:
-            aid = f"{_operator(unit)} is {access.height:.1f} m above the {self.name(level)}, out of reach"
+            aid = f"its {worked_at(unit)} is {access.height:.1f} m above the {self.name(level)}, out of reach"
             if access.height <= _REACH:
                 aid += ": no free place to stand near it was found"
         if level not in self.reached:
@@ -166,8 +174,11 @@ def _levels(way: Way) -> set[str]:
     return {end.level for end in way.ends}
 
 
-def _operator(unit: Unit) -> str:
-    return "its face" if unit.unit_type == "gauge" else "its operator"
+def worked_at(unit: Unit) -> str:
+    """What of a unit a height is told of: what one reads or turns, as far as it was found."""
+    if unit.unit_type == "gauge":
+        return "face"
+    return "middle" if unit.mechanism is None else "operator"
 
 
 def spots_of(ways: Iterable[Way]) -> list[Spot]:

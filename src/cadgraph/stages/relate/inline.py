@@ -10,7 +10,7 @@ import numpy as np
 from cadgraph.geometry.line.centreline import Centreline
 from cadgraph.model.scene import Floats
 from cadgraph.stages.relate.belief import Beliefs
-from cadgraph.stages.relate.evidence import Curve, Term, score_of, tell_terms
+from cadgraph.stages.relate.evidence import Curve, Term, tell_terms
 from cadgraph.stages.relate.joint import Facing
 from cadgraph.stages.relate.line import is_disc
 from cadgraph.stages.relate.piping import Group, Piping, Recovered
@@ -29,6 +29,9 @@ pipe is wider for the length of a valve. Labels hardly help here: a cylinder loo
 INLINE: Mapping[str, float] = {"base": -2.0, "stem": 2.5}
 """The log-odds that a straight piece in a line is a valve, and what a stem that leads nowhere adds."""
 
+# Fittings that are as thick or as narrow as valves: no width tells which a piece is, so that the labeler's word counts.
+_ALIKE = ("strainer", "expansion joint", "flange", "coupling", "union", "hose")
+_RIVAL = 0.25  # least probability, and more than of a valve, from which on something else may be meant (ours)
 _SURE = 0.6  # least probability of what is taken for a valve
 _LEAST = 1e-3  # no probability counts for less
 _LONGEST = 14.0  # radii that a valve is long at most
@@ -73,10 +76,12 @@ def recover_inline(piping: Piping, beliefs: Beliefs, likelihood: Curve) -> Pipin
     for piece in _pieces(piping, beliefs):
         share = max(float(likely[list(piece.parts)].mean()), _LEAST)
         said = f"the labeler gives it {share:.0%}", float(likelihood(np.log(share)))
-        if _judged(piece, True, said).sure < _SURE:
+        other = _rival(piping, beliefs, piece)
+        rival = None if other < max(_RIVAL, share) else float(likelihood(np.log(other))) - said[1]
+        if _judged(piece, True, said, rival).sure < _SURE:
             continue
         stems = _stems(piping, beliefs, piece)
-        found = _judged(piece, bool(stems), said)
+        found = _judged(piece, bool(stems), said, rival)
         if found.sure < _SURE or not taken.isdisjoint(piece.parts):
             continue
         parts = tuple(sorted({*piece.parts, *stems} - taken))
@@ -86,14 +91,31 @@ def recover_inline(piping: Piping, beliefs: Beliefs, likelihood: Curve) -> Pipin
     return _with_valves(piping, groups, taken, recovered) if groups else piping
 
 
-def _judged(piece: _Piece, has_stem: bool, said: Term) -> Recovered:
-    """How sure it is that a piece is a valve, by its shape and by what the labeler says of it, and why."""
+def _rival(piping: Piping, beliefs: Beliefs, piece: _Piece) -> float:
+    """How likely the labeler holds a piece for the likeliest thing that is no valve and may be shaped like one."""
+    vocabulary, parts = piping.given.vocabulary, list(piece.parts)
+    types = {kind for kind in vocabulary.unit_of_group.values() if kind != "valve"}
+    shares = [beliefs.of_name(name)[parts].mean() for name in _ALIKE]
+    shares += [beliefs.of_groups(vocabulary.groups_of(kind))[parts].mean() for kind in sorted(types)]
+    return float(max(shares))
+
+
+def _judged(piece: _Piece, has_stem: bool, said: Term, rival: float | None) -> Recovered:
+    """How sure it is that a piece is a valve, by its shape and by what the labeler says of it, and why.
+
+    Args:
+        piece: the piece.
+        has_stem: whether a stem on it leads nowhere.
+        said: what the labeler's word adds.
+        rival: what its word for something else of such a shape adds beyond that, in log-odds; None where there is none.
+    """
     terms = [("a straight piece of a line", INLINE["base"]), said]
     for curve, value in ((WAIST, piece.waist), (THICKER, piece.thicker)):
         terms += [(curve.says.format(value), float(curve(value)))] if float(curve(value)) else []
     if has_stem:
         terms.append(("a stem on it leads nowhere", INLINE["stem"]))
-    return Recovered(score_of(sum(odds for _, odds in terms)), tell_terms(terms))
+    odds = float(np.exp(sum(odds for _, odds in terms)))
+    return Recovered(odds / (1 + odds + (0.0 if rival is None else odds * float(np.exp(rival)))), tell_terms(terms))
 
 
 def _with_valves(

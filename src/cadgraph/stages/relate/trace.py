@@ -34,6 +34,7 @@ _RATIO, _OWN_RATIO = 0.3, 0.9
 # A short cylinder of a pipe's own size is a piece of it where the labeler is less sure than this of the device.
 _SAME_RATIO, _UNSURE = 0.97, 0.9
 _WITH_PIPES = frozenset({"valve", "pump"})
+_IN_LINE = frozenset({"flow meter", "sight glass"})  # devices that stand in a line and may be shaped like a piece of it
 _PLATES = frozenset({"flange", "blind flange", "gasket"})
 # What the labeler alone takes for steelwork is a pipe only where lines go on at both of its ends: no ratio is enough.
 _BOTH_ENDS, _LEAST_LINES, _MOST_LINES = 2.0, 2, 6
@@ -279,6 +280,8 @@ def _single_ratio(given: RelateInput, roles: Roles, part: int, line: Centreline)
     # valve may mean it, unless labels are doubtful.
     said = label is not None and label is not given.opinions[part]
     if said and (part in roles.backed or _may_be_device(line, roles.doubtful)):
+        return None
+    if label is not None and label.name in _IN_LINE and label.confidence >= _UNSURE:
         return None
     if is_plain_tube(line):
         return _RATIO if roles.doubtful else _OWN_RATIO

@@ -12,11 +12,13 @@ from cadplants.builder.draws import yes
 from cadplants.builder.params import Params, among, between, chance, nested, several, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.primitive.shape import (
+    Plates,
     cone,
     disc,
     dish,
     lying,
     pipe_piece,
+    plated,
     sleeve,
     torus_piece,
 )
@@ -30,7 +32,7 @@ from cadplants.model.standards import (
     smaller,
 )
 from cadplants.solids.mesh_ops import Solid, loft, merge, moved, revolve, weld
-from cadplants.solids.primitives import ball, cylinder, torus
+from cadplants.solids.primitives import ball, box, cylinder, torus
 from cadplants.solids.transforms import arc, at, spun
 
 __all__ = ["PRIMITIVE_FITTINGS"]
@@ -216,30 +218,54 @@ class PlainDisc(_Fitting, name="blind flange/plain disc", place="head", label="b
         return t.model(joint="welded")
 
 
-class SlantedCylinder(_Fitting, name="strainer/slanted cylinder", label="strainer", bundle="strainer", weight=0.7):
-    """A run with a slanted or upright cylinder out of its side."""
+class SlantedCylinder(_Fitting, name="strainer/slanted cylinder", label="strainer", bundle="strainer", weight=2):
+    """A run, with discs at its ends or none, and a slanted or upright cylinder with a lid out of its side."""
 
     length: float = between(1.1, 1.7, "face to face / outside of the flange")
     wide: float = between(1.0, 1.4, "radius / of the pipe")
-    turn: float = among((0.75, 0.75, 1.0), "of the cylinder from upright / half a turn")
+    turn: float = among((0.62, 0.7, 0.75, 0.75, 0.8, 1.0), "of the cylinder from upright / half a turn")
     straight: bool = chance(0.6, "the run is no cone")
+    plates: Plates = plated()
+    foot: float = between(0.32, 0.55, "where the cylinder begins / face to face")
+    leg: float = between(0.75, 1.35, "radius of the cylinder / of the pipe")
+    far: float = between(2.6, 3.8, "(length of the cylinder - 30 mm) / radius of the pipe")
+    lid: float = among((1.0, 1.15, 1.35, 1.6), "radius of its lid / of the cylinder")
+    drain: str = among(("none", "none", "plug", "stub", "cock"), "what is in the lid")
 
     def build(self, t: Table) -> Model:
         r, length, style = t.pipe.radius, round(t.flange.outer * self.length, 6), t.style
         wide = r * self.wide
-        leg = merge([disc(wide, 0.0, 3.2 * r + 0.03, style), disc(1.35 * wide, 3.2 * r, 3.5 * r + 0.04, style)])
         body = disc(wide, 0.0, length, style) if self.straight else cone(wide, 1.3 * wide, 0.0, length, style)
-        t.add("strainer", lying(body), moved(leg, at(length / 2) @ spun("y", self.turn * np.pi)), of="valve")
+        way = at(length * self.foot) @ spun("y", self.turn * np.pi)
+        leg = [moved(one, way) for one in self.cylinder(t, r * self.leg, r * self.far + 0.03)]
+        t.add("strainer", lying(body), *leg, *self.plates.solids(t, length), of="valve")
         return t.model(length)
 
+    def cylinder(self, t: Table, leg: float, far: float) -> list[Solid]:
+        """The cylinder of a radius and length, its lid and what drains it, about z [m]."""
+        style, thick = t.style, 0.1 * leg + 0.008
+        end = far + thick
+        solids = [disc(leg, 0.0, far, style), disc(leg * self.lid, far, end, style)]
+        if self.drain == "plug":
+            solids.append(cylinder(0.35 * leg, end, end + 0.25 * leg + 0.005, 6))
+        elif self.drain in ("stub", "cock"):
+            long = 0.8 * leg + 0.03
+            solids.append(disc(0.25 * leg, end, end + long, style))
+            if self.drain == "cock":
+                solids.append(disc(0.4 * leg, end + 0.25 * long, end + 0.75 * long, style))
+                solids.append(box((1.6 * leg, 0.25 * leg, 0.1 * leg), (0.5 * leg, 0, end + 0.95 * long)))
+        return solids
 
-class Discs(_Fitting, name="expansion joint/discs", label="expansion joint", bundle="expansion joint", weight=0.6):
-    """A thicker cylinder, a row of discs, or a row of rings between two ends."""
+
+class Discs(_Fitting, name="expansion joint/discs", label="expansion joint", bundle="expansion joint", weight=1.2):
+    """A thicker cylinder, a row of discs, or a row of rings between two ends, at times with discs and tie rods."""
 
     length: float = between(0.7, 1.4, "face to face / outside of the flange")
     form: str = among(("cylinder", "discs", "rings"), "what is between its ends")
     wide: float = between(1.2, 1.6, "radius of that / of the pipe", when=lambda p: p.form != "rings")
     count: int = whole(3, 7, "discs or rings", when=lambda p: p.form != "cylinder")
+    plates: Plates = plated()
+    rods: int = among((0, 0, 2, 3, 4), "tie rods from disc to disc", when=lambda p: not p.plates.bare, otherwise=0)
 
     def build(self, t: Table) -> Model:
         r, length, style = t.pipe.radius, round(t.flange.outer * self.length, 6), t.style
@@ -252,7 +278,11 @@ class Discs(_Fitting, name="expansion joint/discs", label="expansion joint", bun
             for z in map(float, places):
                 bead = moved(torus(r + thick, thick, min(t.n(wide), 24), 6), at(0, 0, z))
                 solids.append(disc(wide, z - thick, z + thick, style) if self.form == "discs" else bead)
-        t.add("expansion joint", *map(lying, solids), of="pipe")
+        rod, rim = 0.02 * t.flange.outer + 0.003, 0.45 * t.flange.outer
+        for turn in (2 * np.pi * k / self.rods for k in range(self.rods)):
+            place = (0.0, rim * float(np.cos(turn)), rim * float(np.sin(turn)))
+            solids.append(moved(disc(rod, 0.0, length, style), at(place[2], place[1])))
+        t.add("expansion joint", *map(lying, solids), *self.plates.solids(t, length), of="pipe")
         return t.model(length)
 
 

@@ -11,8 +11,10 @@ from cadplants.builder.device import Device, families_of
 from cadplants.builder.params import Params, among, between, chance, given, nested
 from cadplants.builder.table import Table
 from cadplants.families.primitive.shape import (
+    Plates,
     disc,
     lying,
+    plated,
     torus_piece,
 )
 from cadplants.model.family import Family, Model
@@ -211,24 +213,36 @@ class MeterCylinder(
     label="flow meter",
     bundle="flow meter",
     sizes=sizes_between(15, 300),
-    weight=2,
+    weight=3,
 ):
-    """A cylinder along the line with a box or a cylinder on a neck."""
+    """A cylinder along the line, at times with discs at its ends or a housing round it, a box or cylinder on a neck."""
 
     length: float = between(0.8, 1.6, "(face to face - 40 mm) / outside of the flange")
     wide: float = between(1.0, 1.5, "radius / of the pipe")
     size: float = between(0.04, 0.09, "half the width of the head", "m")
     round_: bool = chance(0.5, "the head is a cylinder")
+    plates: Plates = plated()
+    housed: bool = chance(0.5, "a wider housing round its middle")
+    housing: float = between(1.35, 2.2, "radius of the housing / of the pipe", when=lambda p: p.housed, otherwise=0.0)
+    share: float = between(0.4, 0.75, "length of the housing / face to face", when=lambda p: p.housed, otherwise=0.0)
+    turn: float = among((0.0, 0.5, 1.0), "of a cylinder for its head from along the line / half a turn")
 
     def build(self, t: Table) -> Model:
         length, size, style = round(t.flange.outer * self.length + 0.04, 6), self.size, t.style
         wide = t.pipe.radius * self.wide
-        top = wide + 1.6 * size
+        housing = max(wide, t.pipe.radius * self.housing)
+        top = housing + 1.6 * size
         head = box((2 * size, 1.5 * size, 1.6 * size), (0, 0, top))
-        if self.round_:
-            head = lying(disc(0.8 * size, -size, size, style), 0, 0, top)
-        t.add("flow meter", lying(disc(wide, 0.0, length, style)))
-        t.at(length / 2).add("transmitter", disc(0.35 * size, 0.0, wide + size, style), head, of="gauge")
+        if self.turn == 1.0:
+            head = disc(size, top - 0.8 * size, top + 0.8 * size, style) if self.round_ else head
+        elif self.round_:
+            head = moved(lying(disc(0.8 * size, -size, size, style), 0, 0, top), spun("z", self.turn * np.pi))
+        solids = [lying(disc(wide, 0.0, length, style)), *self.plates.solids(t, length)]
+        if self.housed:
+            low = 0.5 * length * (1 - self.share)
+            solids.append(lying(disc(housing, low, length - low, style)))
+        t.add("flow meter", *solids)
+        t.at(length / 2).add("transmitter", disc(0.35 * size, 0.0, housing + size, style), head, of="gauge")
         return t.model(length, kind="flow meter")
 
 
@@ -238,17 +252,50 @@ class CrossedSight(
     place="inline",
     label="sight glass",
     bundle="sight glass",
-    weight=0.6,
+    weight=0.8,
 ):
     """A cylinder along the line with a short one across."""
 
     length: float = between(0.8, 1.3, "face to face / outside of the flange")
     wide: float = between(1.0, 1.3, "radius / of the pipe")
+    plates: Plates = plated()
 
     def build(self, t: Table) -> Model:
         r, length = t.pipe.radius, round(t.flange.outer * self.length, 6)
         across = moved(disc(0.9 * r, -1.5 * r, 1.5 * r, t.style), at(length / 2) @ spun("x", np.pi / 2))
-        t.add("sight glass", merge([lying(disc(r * self.wide, 0.0, length, t.style)), across]), of="gauge")
+        run = [lying(disc(r * self.wide, 0.0, length, t.style)), across, *self.plates.solids(t, length)]
+        t.add("sight glass", merge(run), of="gauge")
+        return t.model(length, kind="sight glass")
+
+
+class RoddedSight(
+    _Instrument,
+    name="sight glass/cylinder between rods",
+    place="inline",
+    label="sight glass",
+    bundle="sight glass",
+    weight=0.8,
+):
+    """A cylinder of glass between two thick rings, held by rods all round."""
+
+    length: float = between(0.8, 1.6, "face to face / outside of the flange")
+    wide: float = between(1.0, 1.3, "radius of the glass / of the pipe")
+    ring: float = between(1.5, 2.2, "radius of the rings / of the pipe")
+    thick: float = between(0.06, 0.14, "of a ring / face to face")
+    inset: float = among((0.0, 0.0, 0.14), "of the rings from the ends / face to face")
+    rods: int = among((3, 4, 4, 6), "rods")
+
+    def build(self, t: Table) -> Model:
+        r, length, style = t.pipe.radius, round(t.flange.outer * self.length, 6), t.style
+        ring, thick, low = r * self.ring, length * self.thick, length * self.inset
+        solids = [disc(r * self.wide, low, length - low, style)]
+        solids += [disc(ring, z, z + thick, style) for z in (low, length - low - thick)]
+        if low:
+            solids.append(disc(r, 0.0, length, style))
+        for turn in (2 * np.pi * (k + 0.5) / self.rods for k in range(self.rods)):
+            rod = disc(0.07 * ring + 0.002, low, length - low, style)
+            solids.append(moved(rod, at(0.86 * ring * float(np.cos(turn)), 0.86 * ring * float(np.sin(turn)))))
+        t.add("sight glass", merge([lying(one) for one in solids]), of="gauge")
         return t.model(length, kind="sight glass")
 
 
@@ -280,5 +327,6 @@ PRIMITIVE_INSTRUMENTS: tuple[Family, ...] = families_of(
     Thermowell,
     MeterCylinder,
     CrossedSight,
+    RoddedSight,
     LevelRod,
 )

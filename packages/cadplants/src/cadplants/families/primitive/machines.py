@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
 
@@ -18,144 +17,16 @@ from cadplants.families.primitive.shape import (
     dish,
     lying,
     pipe_piece,
+    snout_of,
     vessel,
 )
 from cadplants.model.family import Family, Model, Port
-from cadplants.model.standards import PIPES, sizes_between, smaller
+from cadplants.model.standards import PIPES
 from cadplants.solids.mesh_ops import Solid, moved
 from cadplants.solids.primitives import box, cylinder
 from cadplants.solids.transforms import at, looking, spun
-from cadplants.styles.modeling_style import ModelingStyle
 
 __all__ = ["PRIMITIVE_MACHINES"]
-
-
-def _snout(dn: Callable[[Any], int], about: str) -> Snout:
-    return nested(Snout, about, fixed=lambda p: {"dn": dn(p)})
-
-
-class _Motor(Params):
-    """A motor: a cylinder, with a narrower end, a dish or neither."""
-
-    narrowed: bool = chance(0.4, "a narrower end")
-    domed: bool = chance(0.35, "a dish at its end")
-
-    def solids(self, r: float, length: float, style: ModelingStyle) -> list[Solid]:
-        """About z from 0 up [m]."""
-        solids = [disc(r, 0.0, length, style)]
-        if self.narrowed:
-            solids.append(disc(0.85 * r, length, 1.12 * length, style))
-        if self.domed:
-            solids.append(dish(r, 0.3 * r, length, style))
-        return solids
-
-
-class _Pump(Device, group="Pump unit", label="pump", bundle="pump casing"):
-    """A pump of primitives."""
-
-
-class CylindersAndBoxes(_Pump, name="pump/cylinders and boxes", sizes=sizes_between(40, 150), weight=4):
-    """A pump along x on a base: a flat cylinder or a box with two snouts, a motor, something between them."""
-
-    volute: float = between(1.8, 2.6, "(radius of the casing - 30 mm) / of the suction pipe")
-    lift: float = between(0.12, 0.3, "height of the casing's underside", "m")
-    reach: float = between(0.8, 1.4, "(reach of the suction - 50 mm) / radius of the casing")
-    rise: float = between(0.1, 0.2, "of the discharge over the casing", "m")
-    radius: float = between(0.6, 1.0, "radius of the motor / of the casing")
-    length: float = between(1.8, 3.0, "length of the motor / radius of the casing")
-    thick: float = between(0.35, 0.6, "half the thickness of the casing / its radius")
-    boxed: bool = chance(0.25, "the casing is a box")
-    coned: bool = chance(0.3, "a cone behind the casing", when=lambda p: not p.boxed)
-    suction: Snout = _snout(lambda p: p.dn, "suction")
-    discharge: Snout = _snout(lambda p: smaller(p.dn), "discharge")
-    apart: float = between(0.2, 0.5, "from casing to motor / length of the motor")
-    shaft: float = between(0.15, 0.35, "radius of the shaft / of the motor")
-    guarded: bool = chance(0.4, "a guard over the coupling")
-    motor: _Motor = nested(_Motor, "motor")
-    wired: bool = chance(0.4, "a terminal box")
-    low: float = between(0.05, 0.12, "height of the base", "m")
-    founded: bool = chance(0.5, "a foundation")
-    deep: float = between(0.1, 0.4, "depth of the foundation", "m", when=lambda p: p.founded)
-
-    def build(self, t: Table) -> Model:
-        style, low, volute = t.style, self.low, t.pipe.radius * self.volute + 0.03
-        axis, reach, rise = volute + self.lift, volute * self.reach + 0.05, volute + self.rise
-        radius, length, thick = volute * self.radius, volute * self.length, volute * self.thick
-        casing = [box((2 * thick, 1.8 * volute, 1.8 * volute))]
-        if not self.boxed:
-            casing = [lying(disc(volute, -thick, thick, style))]
-        if self.coned:
-            casing.append(lying(cone(volute, 0.4 * volute, thick, 2.2 * thick, style)))
-        casing.append(moved(self.suction.solid(0.0, reach, style), spun("y", -np.pi / 2)))
-        casing.append(self.discharge.solid(0.0, rise, style))
-        level = t.at(0, 0, axis)
-        level.add("pump casing", *casing)
-        start = thick + length * self.apart
-        level.add("shaft", lying(disc(radius * self.shaft, 0.5 * thick, start, style)))
-        if self.guarded:
-            guard = (0.7 * (start - thick), 0.9 * radius, 0.9 * radius)
-            level.add("coupling guard", box(guard, ((start + thick) / 2, 0, 0)))
-        motor = [lying(one, start) for one in self.motor.solids(radius, length, style)]
-        level.bundled("motor").add("motor", *motor)
-        if self.wired:
-            side = box((0.3 * length, 0.5 * radius, 0.5 * radius), (start + 0.5 * length, 0, 1.1 * radius))
-            level.bundled("motor").add("terminal box", side)
-        left, right = -1.2 * thick, start + length
-        plate = box((right - left + 0.1, 2.2 * radius + 0.1, low), ((left + right) / 2, 0, low / 2))
-        feet = [box((1.6 * thick, volute, axis - low), (0, 0, (axis + low) / 2))]
-        feet.append(box((0.6 * length, 1.4 * radius, axis - low), (start + 0.5 * length, 0, (axis + low) / 2)))
-        t.bundled("pump base").add("pump base", plate, *feet)
-        if self.founded:
-            size = (right - left + 0.3, 2.4 * radius + 0.3, self.deep)
-            t.at((left + right) / 2).add("foundation", box(size, (0, 0, -self.deep / 2)))
-        ports = (
-            Port(looking((-reach, 0, axis), (-1, 0, 0)), self.dn),
-            Port(looking((0, 0, axis + rise), (0, 0, 1)), self.discharge.dn),
-        )
-        return t.model(kind="centrifugal pump", ports=ports)
-
-
-class MotorOnLine(_Pump, name="pump/motor on line", place="inline", sizes=sizes_between(15, 150), weight=0.8):
-    """A cylinder or ball-like cone in the line with a motor upright or level on it."""
-
-    length: float = between(1.2, 2.0, "face to face / outside of the flange")
-    wide: float = between(1.3, 2.0, "radius of the casing / of the pipe")
-    radius: float = between(0.6, 0.95, "radius of the motor / of the casing")
-    tall: float = between(1.5, 3.0, "(length of the motor - 50 mm) / radius of the casing")
-    motor: _Motor = nested(_Motor, "motor")
-    tilt: float = among((0.0, 0.0, 0.5), "of the motor from upright / half a turn")
-    joint: str = among(("flanged", "welded"), "how it sits in its line", when=lambda p: p.dn <= 50, otherwise="flanged")
-
-    def build(self, t: Table) -> Model:
-        r, length, style = t.pipe.radius, round(t.flange.outer * self.length, 6), t.style
-        wide = r * self.wide
-        middle = moved(disc(wide, -0.8 * r, 1.1 * r, style), at(length / 2))
-        t.add("pump casing", lying(disc(r, 0.0, length, style)), middle)
-        motor = self.motor.solids(wide * self.radius, wide * self.tall + 0.05, style)
-        t.bundled("motor").at(length / 2, 0, r).spun("x", self.tilt * np.pi).add("motor", *motor)
-        return t.model(length, self.joint, "circulator")
-
-
-class BoxAndCylinder(_Pump, name="pump/box and cylinder"):
-    """A box with a cylinder on or beside it: a dosing or gear pump."""
-
-    length: float = between(0.15, 0.4, "of the box", "m")
-    wide: float = between(0.12, 0.3, "of the box", "m")
-    high: float = between(0.15, 0.4, "of the box", "m")
-    side: float = between(0.1, 0.3, "length of the cylinder beside it", "m")
-    top: float = between(0.1, 0.3, "height of the cylinder on it", "m")
-
-    def build(self, t: Table) -> Model:
-        a, b, c, style = self.length, self.wide, self.high, t.style
-        r = 0.35 * b
-        side = lying(disc(r, a / 2, a / 2 + self.side, style), 0, 0, 0.5 * c)
-        t.add("pump casing", box((a, b, c), (0, 0, c / 2)), side)
-        t.bundled("motor").add("motor", moved(disc(r, 0.0, self.top, style), at(0, 0, c)))
-        t.bundled("pump base").add("pump base", box((a + 0.1, b + 0.1, 0.04), (0, 0, -0.02)))
-        return t.model(kind="dosing pump")
-
-
-# --- vessels ---
 
 
 class _Manway(Params):
@@ -220,7 +91,7 @@ class _SideNozzle(Params):
     turn: float = between(0, 1.5, "where it is, besides 2.1 rad from one to the next", "rad")
     high: float = between(0.1, 0.9, "its height / of the shell")
     reach: float = between(0.08, 0.2, "of its face beyond the shell", "m")
-    snout: Snout = _snout(lambda p: p.dn, "nozzle")
+    snout: Snout = snout_of(lambda p: p.dn, "nozzle")
 
 
 class _Vessel(Device):
@@ -316,7 +187,7 @@ class _TopNozzle(Params):
 
     dn: int = among((25, 40, 50, 80), "nominal size", "mm")
     reach: float = between(0.08, 0.2, "of its face beyond the shell", "m")
-    snout: Snout = _snout(lambda p: p.dn, "nozzle")
+    snout: Snout = snout_of(lambda p: p.dn, "nozzle")
 
 
 class _Lying(_Vessel):
@@ -410,7 +281,7 @@ class PlainBox(_Vessel, name="tank/plain box", group="Tank", label="tank", weigh
     tall: float = between(0.5, 2.0, "height of high legs", "m", when=lambda p: p.stands == "high legs")
     open_: bool = chance(0.5, "it is open at the top")
     nozzle_dn: int = among((25, 40, 50), "nominal size of its nozzle", "mm")
-    snout: Snout = _snout(lambda p: p.nozzle_dn, "nozzle")
+    snout: Snout = snout_of(lambda p: p.nozzle_dn, "nozzle")
 
     def build(self, t: Table) -> Model:
         a, b, c, wall = self.length, self.wide, self.high, 0.01
@@ -583,9 +454,6 @@ class PotOnLine(Device, name="filter/pot on line", place="inline", group="Equipm
 
 
 PRIMITIVE_MACHINES: tuple[Family, ...] = families_of(
-    CylindersAndBoxes,
-    MotorOnLine,
-    BoxAndCylinder,
     UprightTank,
     LyingTank,
     PlainBox,

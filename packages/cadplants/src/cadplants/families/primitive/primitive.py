@@ -6,6 +6,7 @@ from cadplants.families.primitive.fittings import PRIMITIVE_FITTINGS
 from cadplants.families.primitive.instruments import PRIMITIVE_INSTRUMENTS
 from cadplants.families.primitive.machines import PRIMITIVE_MACHINES
 from cadplants.families.primitive.pieces import PRIMITIVE_PIECES
+from cadplants.families.primitive.pumps import PRIMITIVE_PUMPS
 from cadplants.families.primitive.steel import PRIMITIVE_STEEL
 from cadplants.families.primitive.utilities import PRIMITIVE_UTILITIES
 from cadplants.families.primitive.valves import PRIMITIVE_VALVES
@@ -19,6 +20,7 @@ PRIMITIVES: dict[str, Family] = {
         *PRIMITIVE_VALVES,
         *PRIMITIVE_FITTINGS,
         *PRIMITIVE_INSTRUMENTS,
+        *PRIMITIVE_PUMPS,
         *PRIMITIVE_MACHINES,
         *PRIMITIVE_PIECES,
         *PRIMITIVE_STEEL,

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from typing import Any
 
 import numpy as np
 
 from cadgraph.model.scene import Floats
-from cadplants.builder.params import Params, among, chance, given
+from cadplants.builder.params import Params, When, among, chance, given, nested
+from cadplants.builder.table import Table
 from cadplants.model.standards import FLANGES, PIPES
 from cadplants.solids.mesh_ops import Solid, about_x, merge, moved, revolve, tube, weld
 from cadplants.solids.primitives import cylinder, ring, torus, turned
@@ -16,13 +18,16 @@ from cadplants.styles.modeling_style import ModelingStyle
 
 __all__ = [
     "FRAME",
+    "Plates",
     "Snout",
     "cone",
     "disc",
     "dish",
     "lying",
     "pipe_piece",
+    "plated",
     "sleeve",
+    "snout_of",
     "spoked",
     "torus_piece",
     "vessel",
@@ -76,6 +81,28 @@ def pipe_piece(dn: int, low: float, high: float, style: ModelingStyle) -> Solid:
     return sleeve(PIPES[dn].bore, PIPES[dn].radius, low, high, style)
 
 
+class Plates(Params):
+    """Discs that stand for a device's own flanges, or none."""
+
+    dn: int = given(0, "nominal size", "mm")
+    bare: bool = chance(0.55, "no discs")
+    thick: float = among(
+        lambda p: (0.01, 0.016, FLANGES[p.dn].thickness), "of a disc", "m", when=lambda p: not p.bare, otherwise=0.0
+    )
+
+    def solids(self, t: Table, length: float) -> list[Solid]:
+        """The discs of a device along x of a length [m]."""
+        if self.bare:
+            return []
+        thick, radius = min(self.thick, 0.2 * length), t.flange.outer / 2
+        return [lying(disc(radius, low, low + thick, t.style)) for low in (0.0, length - thick)]
+
+
+def plated(when: When | None = None) -> Plates:
+    """Discs at the ends of a device in a line, at times none; a parameter."""
+    return nested(Plates, "discs at its ends", when=when, fixed=lambda p: {"dn": p.dn})
+
+
 class Snout(Params):
     """A nozzle: a cylinder with or without a disc at its end."""
 
@@ -96,6 +123,11 @@ class Snout(Params):
             return neck
         thick = min(self.thick, 0.5 * abs(face - low))
         return merge([neck, disc(FLANGES[self.dn].outer / 2, face - thick, face, style)])
+
+
+def snout_of(dn: Callable[[Any], int], about: str) -> Snout:
+    """A nozzle of a nominal size [mm] that follows from the other parameters; a parameter."""
+    return nested(Snout, about, fixed=lambda p: {"dn": dn(p)})
 
 
 def spoked(radius: float, thick: float, count: int, style: ModelingStyle) -> list[Solid]:

@@ -8,18 +8,21 @@ import numpy as np
 
 from cadplants.builder.device import Device, families_of
 from cadplants.builder.draws import of_form
-from cadplants.builder.params import Params, When, among, between, chance, given, nested, whole
+from cadplants.builder.params import Params, When, among, between, chance, nested, whole
 from cadplants.builder.table import Table
 from cadplants.families.primitive.shape import (
+    Plates,
     cone,
     disc,
     dish,
     lying,
+    plated,
+    sleeve,
     spoked,
 )
 from cadplants.model.family import Family, Model
 from cadplants.model.plant import Turning
-from cadplants.model.standards import FLANGES, sizes_between
+from cadplants.model.standards import sizes_between
 from cadplants.solids.mesh_ops import Solid, merge, moved
 from cadplants.solids.primitives import ball, box, cylinder, torus, turned
 from cadplants.solids.transforms import at, spun
@@ -29,23 +32,6 @@ __all__ = ["PRIMITIVE_VALVES"]
 _BODY = "valve body"
 _BIG, _SMALL = sizes_between(25, 400), sizes_between(15, 50)
 _WAIST = "radius of the waist / of the ends"
-
-
-class _Plates(Params):
-    """Discs that stand for a valve's own flanges, or none."""
-
-    dn: int = given(0, "nominal size", "mm")
-    bare: bool = chance(0.55, "no discs")
-    thick: float = among(
-        lambda p: (0.01, 0.016, FLANGES[p.dn].thickness), "of a disc", "m", when=lambda p: not p.bare, otherwise=0.0
-    )
-
-    def solids(self, t: Table, length: float) -> list[Solid]:
-        """The discs of a valve of a length [m]."""
-        if self.bare:
-            return []
-        thick, radius = min(self.thick, 0.2 * length), t.flange.outer / 2
-        return [lying(disc(radius, low, low + thick, t.style)) for low in (0.0, length - thick)]
 
 
 _WHEELS = ("disc", "crossed bars", "spokes")
@@ -136,12 +122,8 @@ def _screwed() -> float:
     return among((1.0, 1.0, 1.15, 1.4), "radius of its ends / of the pipe")
 
 
-def _plates() -> _Plates:
-    return nested(_Plates, "discs at its ends", fixed=lambda p: {"dn": p.dn})
-
-
-def _no_plates() -> _Plates:
-    return nested(_Plates, "discs at its ends", when=lambda _: False)
+def _no_plates() -> Plates:
+    return nested(Plates, "discs at its ends", when=lambda _: False)
 
 
 def _top() -> _Top:
@@ -175,7 +157,7 @@ class TwoCones(_Valve, name="valve/two cones", weight=4):
 
     wide: float = _flanged()
     waist: float = among((0.0, 0.12, 0.3, 0.5), _WAIST)
-    plates: _Plates = _plates()
+    plates: Plates = plated()
     top: _Top = _top()
     called: str = _called()
 
@@ -195,7 +177,7 @@ class SmallTwoCones(TwoCones, name="valve/small two cones", sizes=_SMALL, weight
     joint = "welded"
 
     wide: float = _screwed()
-    plates: _Plates = _no_plates()
+    plates: Plates = _no_plates()
 
 
 class _Waisted(_Valve):
@@ -204,7 +186,7 @@ class _Waisted(_Valve):
     wide: float = _flanged()
     waist: float = between(0.15, 0.6, _WAIST)
     flat: float = among((0.0, 0.06, 0.15), "length of a straight end / face to face")
-    plates: _Plates = _plates()
+    plates: Plates = plated()
 
     def body(self, t: Table) -> list[Solid]:
         """The solids of its body."""
@@ -234,7 +216,7 @@ class SmallHourglass(Hourglass, name="valve/small hourglass", sizes=_SMALL, weig
     joint = "welded"
 
     wide: float = _screwed()
-    plates: _Plates = _no_plates()
+    plates: Plates = _no_plates()
 
 
 class Barrel(_Valve, name="valve/cylinder", weight=2):
@@ -268,7 +250,7 @@ class Ball(_Valve, name="valve/ball of primitives", weight=2):
 
     neck: float = among((1.0, 1.1, 1.3), "radius of the cylinder / of the pipe")
     wide: float = between(1.3, 1.9, "radius of the ball / of the pipe")
-    plates: _Plates = _plates()
+    plates: Plates = plated()
     top: _Top = _top()
 
     def build(self, t: Table) -> Model:
@@ -286,7 +268,7 @@ class SmallBall(Ball, name="valve/small ball", sizes=_SMALL, weight=1.0):
 
     joint = "welded"
 
-    plates: _Plates = _no_plates()
+    plates: Plates = _no_plates()
 
 
 class Block(_Valve, name="valve/block"):
@@ -354,13 +336,56 @@ class ConesAndDish(
         return t.model(length, kind="control valve")
 
 
+class Tower(_Valve, name="valve/tower on yoke", sizes=sizes_between(15, 100), weight=1.5):
+    """A process valve in one mesh: one or two turned chambers, a yoke of two bars, a cylinder drive as tall as wide."""
+
+    joint = "welded"
+
+    chambers: int = whole(1, 2, "chambers over each other; the upper one stands on the line's own")
+    wide: float = between(1.3, 2.0, "radius of a chamber / of the pipe")
+    round_: bool = chance(0.5, "the chambers swell in the middle")
+    yoke: float = between(0.03, 0.1, "height of the yoke", "m")
+    bars: bool = chance(0.6, "two flat bars; else a ring of its width")
+    drive: float = between(1.4, 2.4, "(radius of the drive - 15 mm) / of the pipe")
+    tall: float = between(1.5, 3.2, "height of the drive / its radius")
+    stepped: float = among((0.0, 0.6, 0.85), "radius of a second step of the drive / of the first; 0: none")
+    headed: bool = chance(0.4, "a short control head on the drive")
+    called: str = among(("valve", "globe valve", "control valve"), "what it is taken for")
+
+    def build(self, t: Table) -> Model:
+        r, style, length = t.pipe.radius, t.style, self.face_to_face(t)
+        wide = min(r * self.wide, 0.42 * length)
+        low, top = -1.3 * r, 1.3 * r + (self.chambers - 1) * 2.4 * r
+        swell = 1.15 * wide if self.round_ else wide
+        outline = [(wide, low), (swell, 0.5 * (low + top)), (wide, top)]
+        drive, foot = r * self.drive + 0.015, top + self.yoke
+        solids = [turned(outline, t.n(wide)), disc(0.3 * r + 0.002, top, foot, style)]
+        if self.bars:
+            thick = 0.35 * wide
+            bar = (thick, 0.3 * thick, self.yoke)
+            solids += [box(bar, (0, side * wide, top + self.yoke / 2)) for side in (0.8, -0.8)]
+        else:
+            solids.append(sleeve(0.7 * wide, 0.8 * wide, top, foot, style))
+        tall = drive * self.tall
+        solids.append(disc(drive, foot, foot + tall, style))
+        high = foot + tall
+        if self.stepped:
+            solids.append(disc(drive * self.stepped, high, high + 0.4 * tall, style))
+            high += 0.4 * tall
+        if self.headed:
+            solids.append(disc(0.5 * drive, high, high + 0.6 * drive, style))
+        ends = sleeve(t.pipe.bore, r, 0.0, length, style)
+        t.add(_BODY, lying(ends), *(moved(one, at(length / 2)) for one in solids), of="valve")
+        return t.model(length, self.joint, self.called)
+
+
 class NoSpindle(_Valve, name="valve/no spindle", weight=1.5):
     """A body without a spindle: an hourglass with a bar across, a cylinder or a ball, maybe a flat lid."""
 
     form: str = among(("hourglass", "cone", "ball"), "its body")
     wide: float = _flanged(lambda p: p.form != "ball")
     barred: bool = chance(0.5, "a bar across the waist", when=of_form("hourglass"))
-    plates: _Plates = _plates()
+    plates: Plates = plated()
     lidded: bool = chance(0.4, "a flat lid")
 
     def build(self, t: Table) -> Model:
@@ -529,6 +554,7 @@ PRIMITIVE_VALVES: tuple[Family, ...] = families_of(
     Block,
     ThreeCones,
     ConesAndDish,
+    Tower,
     NoSpindle,
     ThinCylinder,
     Tripod,
