@@ -12,8 +12,8 @@ FLOOR = ((0.0, 0.0, 0.0), (20.0, 10.0, 0.0))
 
 def place(number, kind, height, low=None, aabb=FLOOR, name=None, landings=(), parts=()):
     return Place(
-        id=f"place-{number:03d}", kind=kind, name=name or kind, height=height, low=low, area=0.0, aabb=aabb, parts=parts,
-        landings=landings,
+        id=f"place-{number:03d}", kind=kind, name=name or kind, height=height, low=low, area=0.0, aabb=aabb,
+        parts=parts, landings=landings,
     )  # fmt: skip
 
 
@@ -26,7 +26,7 @@ def standing(tag, at, level="place-001", reach="floor", kind=None, height=1.2):
     return found.model_copy(update={"access": access})
 
 
-def gallery(more=()):
+def gallery(more=(), ground=True):
     """Stairs at x = 8 lead from the ground to a platform at 3 m.
 
     ::
@@ -37,7 +37,7 @@ def gallery(more=()):
     up = "place-002"
     nodes = [
         SLAB,
-        place(1, "ground", 0.0, parts=(SLAB.id,)),
+        place(1, "ground", 0.0, parts=(SLAB.id,) if ground else ()),
         place(2, "platform", 3.0, aabb=((8.0, 0.0, 2.9), (14.0, 4.0, 3.0)), name="platform +3.00 m (south east)"),
         place(3, "stairs", 3.0, 0.0, ((5.0, 1.0, 0.0), (8.0, 2.0, 3.0)), landings=((5.0, 1.5, 0.0), (8.0, 1.5, 3.0))),
         place(4, "platform", 5.0, aabb=((0.0, 8.0, 4.9), (2.0, 10.0, 5.0)), name="platform +5.00 m (north west)"),

@@ -95,6 +95,20 @@ def test_opening_a_valve_does_not_repeat_what_closing_it_did():
     assert "P-001" in opened.fed_again
 
 
+def test_opening_the_way_to_an_open_end_is_told_as_harm():
+    known, planned = made("open V-010", pumping())
+    (opened,) = (step.change for step in planned.steps if step.goal)
+    assert opened.harm == ("it flows out at terminal-001, an open end",)
+    assert "! open V-010: it flows out at terminal-001, an open end" in doubt_lines(known, planned)
+
+
+def test_without_a_ground_heights_are_told_to_be_over_the_lowest_point():
+    graph = gallery(ground=False)
+    known, planned = made("close V-001", graph)
+    assert "? V-001: no ground was found: heights are over the lowest point of the plant" in doubt_lines(known, planned)
+    assert any("its middle is 1.2 m above the lowest point of the plant" in line for line in step_lines(known, planned))
+
+
 def test_a_platform_without_a_way_up_takes_a_lift():
     known, planned = made("close V-004")
     assert doings(planned) == ["walk V-004", "set up V-004", "close V-004"]

@@ -6,6 +6,7 @@ from cadgraph.model.records import Adjacent, Port
 from cadgraph.query import Network, find_isolation
 from cadgraph.query.text import gap_lines, isolation_lines
 from networks import chain, joint, junction, network, pumping, terminal, unit
+from playing import LEVER
 
 
 def closed(found):
@@ -180,6 +181,20 @@ def test_only_the_first_of_two_valves_behind_a_pump_is_suspected_and_none_before
     found = find_isolation(graph, "P-001")
     assert {v.name for v in found.passed if "check valve" in v.why} == {"V-003"}
     assert len(found.passed) == 3
+
+
+def test_the_valve_with_something_to_turn_is_no_check_valve_and_the_one_behind_it_is_suspected():
+    nodes = [unit("T-001"), unit("V-001", GATE), unit("P-001"), unit("V-003"), unit("V-004"), unit("T-002")]
+    nodes[3] = nodes[3].model_copy(update={"mechanism": LEVER})
+    graph = network(nodes, chain("T-001 V-001 P-001 V-003 V-004 T-002"))
+    assert {(v.name, v.why) for v in find_isolation(graph, "P-001").passed} == {
+        ("V-003", "kind not known"),
+        (
+            "V-004",
+            "kind not known; nothing to turn was found at it, as it was at V-003 between it and P-001: likely a check "
+            "valve",
+        ),
+    }
 
 
 @pytest.mark.parametrize(
