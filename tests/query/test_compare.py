@@ -49,6 +49,32 @@ def exchanged(graph, a, b):
     return renamed(graph, {a: b, b: a})
 
 
+def ending(kind, edges="T-001.N1 V-001 X1"):
+    nodes = [unit("T-001", ports=("N1", "N2")), unit("V-001", "gate valve"), *([terminal(1, kind)] if kind else [])]
+    return network(nodes, [edge for text in edges.split("; ") for edge in chain(text)])
+
+
+@pytest.mark.parametrize(
+    ("built", "drawn", "said"),
+    [
+        ("open", "open", None),
+        ("open", "unknown", None),
+        ("unknown", "blind", None),
+        ("open", "blind", ("1 open end", "1 blind end")),
+        ("blind", "open", ("1 blind end", "1 open end")),
+        ("open", "", ("1 open end", "no end")),
+    ],
+)
+def test_what_pipes_end_in_is_compared(built, drawn, said):
+    found = compare(ending(built), ending(drawn, "T-001.N1 V-001 X1" if drawn else "T-001.N1 V-001"))
+    assert [(one.where, one.plant, one.plan) for one in found.ends] == ([] if said is None else [(("V-001",), *said)])
+    assert found.agrees is (said is None)
+    lines = comparison_lines(found)
+    assert f"ends of pipes  {len(found.ends)} differ" in lines
+    if said is not None:
+        assert f"  V-001  {said[0]} in the plant,  {said[1]} in the plan" in lines
+
+
 def test_plant_and_its_own_plan_agree(tmp_path):
     plan = read_dexpi(write_dexpi(pumping(), tmp_path / "plan.xml"))
     found = compare(pumping(), plan)
@@ -302,7 +328,7 @@ def plant(tmp_path):
 def test_command_says_that_both_agree(plant, capsys):
     code, out, _ = run(capsys, "compare", plant, plant / "plan.xml", "--strict")
     assert code == 0
-    assert out.splitlines()[-1] == "the plant and the plan agree (nominal sizes are not compared)"
+    assert out.splitlines()[-1] == "the plant and the plan agree (nominal sizes and nozzles are not compared)"
 
 
 def test_command_tells_each_difference_and_ends_with_one_only_when_strict(plant, capsys):
@@ -324,7 +350,7 @@ def test_command_answers_as_json_and_into_a_file(plant, capsys):
     assert (
         (plant / "a.txt")
         .read_text(encoding="utf-8")
-        .endswith("the plant and the plan agree (nominal sizes are not compared)\n")
+        .endswith("the plant and the plan agree (nominal sizes and nozzles are not compared)\n")
     )
 
 

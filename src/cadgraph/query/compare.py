@@ -11,7 +11,7 @@ import numpy as np
 
 from cadgraph._io.text import tag_key
 from cadgraph.model.graph import SceneGraph
-from cadgraph.model.records import Unit
+from cadgraph.model.records import Terminal, Unit
 from cadgraph.query.lines import Line, find_lines
 from cadgraph.query.matching import Match, kind_words, match_units
 from cadgraph.query.network import Network
@@ -128,7 +128,8 @@ class Comparison:
         orders: lines on which they don't.
         directions: where the flow goes the other way.
         kinds: units of another kind; of units that nobody can tell apart all together, where no way to pair them fits.
-        told: what was skipped when the plan was read.
+        ends: where another number of pipes ends at the same units, or others of them are open.
+        skipped: what was not read of the plan.
     """
 
     found: tuple[Found, ...]
@@ -142,6 +143,7 @@ class Comparison:
     orders: tuple[OtherOrder, ...]
     directions: tuple[OtherDirection, ...]
     kinds: tuple[Difference, ...]
+    ends: tuple[Difference, ...]
     skipped: tuple[str, ...]
 
     @property
@@ -149,6 +151,7 @@ class Comparison:
         """Whether nothing differs, as far as both can be compared."""
         differing = (
             self.only_plant, self.only_plan, self.extra, self.missing, self.orders, self.directions, self.kinds,
+            self.ends,
         )  # fmt: skip
         return not any(differing)
 
@@ -163,7 +166,7 @@ class Comparison:
         if not self.agrees:
             return "the plant and the plan differ"
         if self.complete:
-            return "the plant and the plan agree (nominal sizes are not compared)"
+            return "the plant and the plan agree (nominal sizes and nozzles are not compared)"
         open_ones = sum(len(plant) for plant, _ in self.alike)
         of = len(self.found) + open_ones + len(self.only_plant)
         return (
@@ -214,6 +217,7 @@ def compare(
         orders=orders,
         directions=_directions(names, regions),
         kinds=(*_kinds(networks, matching.pairs), *_kinds_of_alike(networks, matching.alike)),
+        ends=_ends(names, regions),
         skipped=tuple(finding.message for finding in plan.diagnostics),
     )
 
@@ -383,6 +387,45 @@ def _against(ends: tuple[str, ...], built: Mapping[str, str], planned: Mapping[s
         OtherDirection(name, tuple(other for other in ends if other != name), built[name], planned[name])
         for name in turned[: 1 if len(ends) == 2 else None]
     ]
+
+
+def _ends(names: _Names, regions: tuple[list[Region], list[Region]]) -> tuple[Difference, ...]:
+    """Where what pipes end in differs between the two, in the pieces of pipe at the same units.
+
+    A piece that joins units and is in one of both only is told as a connection. What nobody knows of an end
+    contradicts nothing.
+    """
+    built, drawn = (_by_ends(names, found, side) for side, found in enumerate(regions))
+    found = []
+    for units in sorted(built.keys() | drawn.keys(), key=lambda units: [tag_key(unit) for unit in units]):
+        if not units or (len(units) > 1 and (units not in built or units not in drawn)):
+            continue
+        counts: list[Counter[str]] = [
+            Counter(
+                str(node.kind)
+                for region in side.get(units, ())
+                for name in region.inside
+                if isinstance(node := network.places[name], Terminal)
+            )
+            for network, side in zip(names.networks, (built, drawn), strict=True)
+        ]
+        if _contradict_in_ends(*counts):
+            found.append(Difference(units, *map(_ends_in_words, counts)))
+    return tuple(found)
+
+
+def _contradict_in_ends(built: Counter[str], drawn: Counter[str]) -> bool:
+    """Whether there are more ends on one side, or more of a kind than may be of it on the other."""
+    pairs = (built, drawn), (drawn, built)
+    return built.total() != drawn.total() or any(
+        one[kind] > other[kind] + other["unknown"] for kind in ("open", "blind") for one, other in pairs
+    )
+
+
+def _ends_in_words(ends: Counter[str]) -> str:
+    known = [f"{ends[kind]} {kind} end{'s' * (ends[kind] != 1)}" for kind in ("open", "blind") if ends[kind]]
+    rest = [f"{ends['unknown']} of which nobody knows"] if ends["unknown"] else []
+    return ", ".join([*known, *rest]) or "no end"
 
 
 def _kinds(networks: tuple[Network, Network], pairs: Iterable[Match]) -> tuple[Difference, ...]:

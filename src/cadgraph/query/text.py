@@ -326,6 +326,11 @@ def comparison_lines(found: Comparison, *, most: int = 20) -> list[str]:
             aligned([(", ".join(k.where), f"{k.plant} in the plant,", f"{k.plan} in the plan") for k in found.kinds]),
             most,
         ),
+        f"ends of pipes  {len(found.ends)} differ",
+        *_listed(
+            aligned([(", ".join(e.where), f"{e.plant} in the plant,", f"{e.plan} in the plan") for e in found.ends]),
+            most,
+        ),
         *(f"note: {remark}" for remark in found.skipped),
         "",
         found.verdict,
@@ -386,6 +391,7 @@ def comparison_values(found: Comparison) -> dict[str, Any]:
         "orders": {"agree": list(found.lines), "differ": [dataclasses.asdict(order) for order in found.orders]},
         "directions": [dataclasses.asdict(way) for way in found.directions],
         "kinds": [dataclasses.asdict(kind) for kind in found.kinds],
+        "ends": [dataclasses.asdict(end) for end in found.ends],
         "notes": list(found.skipped),
     }
 
