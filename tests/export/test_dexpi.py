@@ -6,6 +6,7 @@ import xmlschema
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+import graphs
 from cadgraph.errors import FormatError
 from cadgraph.export import export_graph
 from cadgraph.export.dexpi import read_dexpi, write_dexpi
@@ -14,7 +15,7 @@ from cadgraph.model.records import Connected, Junction, Terminal
 from cadgraph.query import find_isolation, find_lines, trace
 from cadgraph.query.compare import compare
 from cadgraph.query.text import isolation_values, line_values, trace_values
-from networks import chain, junction, network, pumping, terminal, unit
+from networks import chain, joint, junction, network, pumping, terminal, unit
 
 
 @pytest.fixture(scope="module")
@@ -370,3 +371,22 @@ def test_pipe_drawn_in_two_strokes_is_one_connection(tmp_path):
     )
     edges = read_dexpi(tmp_path / "a.xml").connections()
     assert [(edge.source, edge.target, edge.length) for edge in edges] == [("V1", "G1", 2.5), ("G1", "V2", 0.5)]
+
+
+def test_where_the_plant_was_doubtful_its_drawing_is(tmp_path):
+    nodes = [unit("T-001"), unit("V-001", "gate valve"), unit("P-001"), unit("V-002", "gate valve"), unit("T-002")]
+    graph = network(nodes, chain("T-001 V-001 P-001 V-002 T-002"))
+    sure = there_and_back(graph, tmp_path)
+    assert (find_isolation(graph, "P-001").isolated, find_isolation(sure, "P-001").isolated) == (True, True)
+    assert sure.diagnostics == ()
+    parts = [graphs.part(k, f"/{name}", id=name) for k, name in enumerate(("p1", "e1"))]
+    nodes[2] = nodes[2].model_copy(update={"parts": ("p1",)})
+    nodes.append(unit("E-001").model_copy(update={"parts": ("e1",)}))
+    unjoined = [joint("p1", "e1", 0.003, 0.4, made=False)]
+    doubtful = network([*parts, *nodes], chain("T-001 V-001 P-001 V-002 T-002"), joints=unjoined)
+    assert find_isolation(doubtful, "P-001").isolated is None
+    drawn = there_and_back(doubtful, tmp_path)
+    found = find_isolation(drawn, "P-001")
+    assert found.isolated is None
+    assert "the plant that this drawing was written from goes on here, maybe" in found.doubts[0].text
+    assert compare(doubtful, drawn).skipped == ()

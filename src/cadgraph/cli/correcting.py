@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import getpass
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -83,13 +84,12 @@ def correct(
     into it applies again; 'cadgraph corrections' lists all.
     """
     from cadgraph.model.graph import SceneGraph
-    from cadgraph.session.correct import apply_edits, number_keepers, step_back_or_forth
+    from cadgraph.session.correct import apply_edits, step_back_or_forth
 
     graph = SceneGraph.load(folder)
     edits = [
         *_labels(label or [], forget or [], this_only),
-        *(dict(zip(("kind", "unit", "tag"), ("tag", *_sides("tag", one)), strict=True)) for one in tag or []),
-        *(number_keepers(folder) if keep_tags else []),
+        *_tags(folder, tag or [], keep_tags),
         *_units(graph, merge, split),
         *_joints(graph, join, cut),
         *(_flow(one) for one in flow or []),
@@ -152,6 +152,15 @@ def _labels(labels: list[str], forget: list[str], this_only: bool) -> list[dict[
     sides = [_sides("label", one) for one in labels]
     said = [{"kind": "label", "part": part, "group": label, "this_only": this_only} for part, label in sides]
     return [*said, *({"kind": "forget", "part": part} for part in forget)]
+
+
+def _tags(folder: Path, given: list[str], keep: bool) -> list[Mapping[str, Any]]:
+    from cadgraph.session.correct import number_keepers
+
+    called: list[Mapping[str, Any]] = [
+        dict(zip(("kind", "unit", "tag"), ("tag", *_sides("tag", one)), strict=True)) for one in given
+    ]
+    return [*called, *(number_keepers(folder) if keep else [])]
 
 
 def _units(graph: SceneGraph, merge: _Pair, split: list[str] | None) -> list[dict[str, Any]]:

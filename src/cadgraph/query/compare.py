@@ -12,6 +12,7 @@ import numpy as np
 from cadgraph._io.text import tag_key
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Terminal, Unit
+from cadgraph.query.doubt import DRAWN_FROM_DOUBT
 from cadgraph.query.lines import Line, find_lines
 from cadgraph.query.matching import Match, kind_words, match_units
 from cadgraph.query.network import Network
@@ -218,7 +219,7 @@ def compare(
         directions=_directions(names, regions),
         kinds=(*_kinds(networks, matching.pairs), *_kinds_of_alike(networks, matching.alike)),
         ends=_ends(names, regions),
-        skipped=tuple(finding.message for finding in plan.diagnostics),
+        skipped=tuple(finding.message for finding in plan.diagnostics if finding.code != DRAWN_FROM_DOUBT),
     )
 
 

@@ -13,7 +13,16 @@ from cadgraph.model.records import Joint, Part, Port, Unit
 from cadgraph.query.against import Against, standing_against
 from cadgraph.query.network import Network
 
-__all__ = ["Doubt", "bare_nozzles", "few_ports", "likely_joints", "open_sides", "unconnected"]
+__all__ = [
+    "DRAWN_FROM_DOUBT",
+    "Doubt",
+    "bare_nozzles",
+    "doubted_in_drawing",
+    "few_ports",
+    "likely_joints",
+    "open_sides",
+    "unconnected",
+]
 
 # From this score on a joint that was not made makes an answer doubtful (ours): one in ten of such joins after all,
 # which is too much to open a pump on.
@@ -27,6 +36,11 @@ _NEAR = 0.01  # [m]; so near to a nozzle a line that joins there begins, or near
 _BY_PLACE = (
     "taken for a {} because one line ends at it; by its shape alone it is something else, and maybe a valve to the open"
 )
+
+_AS_DRAWN = "the plant that this drawing was written from goes on here, maybe: its own graph says how"
+
+DRAWN_FROM_DOUBT = "dexpi-doubtful"
+"""Code of the diagnostic that lists the nodes of a drawing at which the graph that it was written from had doubts."""
 
 About = Literal["feeds", "follows"]
 
@@ -76,7 +90,14 @@ def open_sides(network: Network, places: Collection[str], about: About = "follow
     against = [one for one in found if one.place is None or one.place not in joined]
     guessed = [place for place in places if place not in told and _is_gauge_by_place(network, place)]
     ends = [Doubt(place, network.name(place), _BY_PLACE.format(network.what(place))) for place in guessed]
+    ends += [Doubt(place, network.name(place), _AS_DRAWN) for place in places if place in doubted_in_drawing(network)]
     return (*short, *bare, *ends, *unjoined, *(_stands_against(network, home, one, about) for one in against))
+
+
+def doubted_in_drawing(network: Network) -> frozenset[str]:
+    """Ids of the nodes of a drawing at which the graph that it was written from had doubts."""
+    notes = (note for note in network.graph.diagnostics if note.code == DRAWN_FROM_DOUBT)
+    return frozenset(name for note in notes for name in note.meshes)
 
 
 def few_ports(network: Network, place: str) -> tuple[int, int] | None:

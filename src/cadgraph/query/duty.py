@@ -8,7 +8,7 @@ from typing import Literal
 from cadgraph.model.records import Unit
 from cadgraph.query.network import Network
 
-__all__ = ["Duty", "Suspect", "blocked_relief", "duty_of", "likely_kinds", "suspect_of"]
+__all__ = ["Duty", "Suspect", "blocked_relief", "duty_of", "likely_kinds", "suspect_of", "worked_by_hand"]
 
 Duty = Literal["shuts off", "likely", "unknown", "check", "relief", "control", "other"]
 """``likely``: its kind is open, but all that it may be shuts off; ``other``: a kind that isn't known to shut off."""
@@ -30,7 +30,8 @@ _DUTIES: tuple[tuple[tuple[str, ...], Duty], ...] = (
     ),
 )  # fmt: skip
 # A valve whose kind is open shuts off where kinds that do are together as sure as a kind must be to be stated (ours).
-_SURE = 0.85
+_SURE = 0.9
+_HAND_OPERATORS = frozenset({"lever", "handwheel"})
 _OPERATORS = frozenset({"handwheel", "lever", "gearbox", "actuator"})
 
 
@@ -108,6 +109,15 @@ def _has_operator(network: Network, place: str) -> bool:
         return False
     labels = (network.graph.part(part).label for part in node.parts)
     return node.mechanism is not None or any(label is not None and label.name in _OPERATORS for label in labels)
+
+
+def worked_by_hand(network: Network, place: str) -> bool:
+    """Whether a valve that only one line was found at is worked by hand, and nobody but the labeler says what it is."""
+    found = (network.graph.part(part).label for part in network.places[place].parts)
+    labels = [label for label in found if label is not None]
+    told = any(label.source in ("author", "human", "catalog", "repeat") for label in labels)
+    operated = any(label.name in _HAND_OPERATORS for label in labels)
+    return operated and not told and network.ports_in_use(place) < 2
 
 
 def blocked_relief(network: Network, place: str) -> tuple[str, ...]:

@@ -9,8 +9,8 @@ from cadgraph._io.text import tag_key
 from cadgraph.errors import Unconnected
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Terminal
-from cadgraph.query.doubt import Doubt, few_ports, open_sides
-from cadgraph.query.duty import blocked_relief, duty_of, likely_kinds, suspect_of
+from cadgraph.query.doubt import Doubt, doubted_in_drawing, few_ports, open_sides
+from cadgraph.query.duty import blocked_relief, duty_of, likely_kinds, suspect_of, worked_by_hand
 from cadgraph.query.lines import find_lines
 from cadgraph.query.network import Network
 from cadgraph.query.section import Reached, Rules, Section, close_off, is_source
@@ -20,7 +20,6 @@ __all__ = ["Closing", "Isolation", "Opening", "Passed", "find_isolation"]
 PASSED_OVER = "is a check valve: passed over"
 
 
-_HAND_OPERATORS = frozenset({"lever", "handwheel"})
 _AS_RELIEF = (
     "taken for a relief valve and so for closed, yet it has a lever or wheel and no line behind it: were it a hand "
     "valve to the open, it would have to be closed, too"
@@ -273,7 +272,12 @@ def _assumed(network: Network, section: Section) -> list[Doubt]:
         if place in section.needed and duty_of(network, place) == "unknown"
     ]
     reliefs = [place for place in section.nearest if _is_closed_relief(network, section, place)]
-    doubted = [Doubt(place, network.name(place), _AS_RELIEF) for place in reliefs if _has_hand_operator(network, place)]
+    drawn = doubted_in_drawing(network)
+    doubted = [
+        Doubt(place, network.name(place), _AS_RELIEF)
+        for place in reliefs
+        if worked_by_hand(network, place) or place in drawn
+    ]
     return [*unknown, *doubted]
 
 
@@ -281,15 +285,6 @@ def _is_closed_relief(network: Network, section: Section, place: str) -> bool:
     """Whether a section ends at a relief valve, which is taken for closed."""
     ends = place in section.walls or network.stands_aside(place)
     return ends and duty_of(network, place) == "relief"
-
-
-def _has_hand_operator(network: Network, place: str) -> bool:
-    """Whether a valve that only one line was found at is worked by hand, and nobody but the labeler says what it is."""
-    found = (network.graph.part(part).label for part in network.places[place].parts)
-    labels = [label for label in found if label is not None]
-    told = any(label.source in ("author", "human", "catalog", "repeat") for label in labels)
-    operated = any(label.name in _HAND_OPERATORS for label in labels)
-    return operated and not told and network.ports_in_use(place) < 2
 
 
 def _opening(network: Network, section: Section, place: str) -> Opening | None:

@@ -27,6 +27,7 @@ from cadgraph.model.records import (
     Terminal,
     Unit,
 )
+from cadgraph.query.doubt import DRAWN_FROM_DOUBT
 
 __all__ = ["read_dexpi"]
 
@@ -48,6 +49,7 @@ _SKIPPED = {
     "tag-twice": "tags are used more than once; later ones get their ID behind them",
     "unknown-end": "connections end at something that the file doesn't hold; taken for ends of pipes",
     "no-ends": "segments join nothing",
+    "doubtful": "places at which more may be joined than the file says: the graph that it was written from tells what",
 }
 
 _LETTERS = {"P": "pressure gauge", "L": "level gauge", "F": "flow meter", "T": "thermometer"}
@@ -111,6 +113,7 @@ class _Reading:
         self.systems: dict[str, set[str]] = {}
         self.skipped: dict[str, list[str]] = {}
         self.tags: set[str] = set()
+        self.doubtful: dict[str, None] = {}  # ids of nodes at which the plant was doubtful
 
     def graph(self) -> SceneGraph:
         self._items()
@@ -130,9 +133,18 @@ class _Reading:
                 edges=(*edges, *self._contains(set(used))),
                 diagnostics=tuple(
                     Diagnostic(f"dexpi-{code}", _told(code, names)) for code, names in self.skipped.items()
-                ),
+                )
+                + self._doubts(),
             )
         )
+
+    def _doubts(self) -> tuple[Diagnostic, ...]:
+        """Where the plant that the file was written from may go on although the file says nothing of it."""
+        doubtful = tuple(name for name in self.doubtful if name in self.nodes)
+        if not doubtful:
+            return ()
+        names = [node.tag if isinstance(node := self.nodes[name], Unit) else name for name in doubtful]
+        return (Diagnostic(DRAWN_FROM_DOUBT, _told("doubtful", names), doubtful),)
 
     def _items(self) -> None:
         """All that can be a node."""
@@ -176,6 +188,7 @@ class _Reading:
             custom,
             tuple(Port(name=name, point=_point(custom)) for name in dict.fromkeys(port for _, port in ports) if name),
         )
+        self._note(node, custom)
         # Chambers and bundles are equipment within equipment; pipes may end at them, too.
         for part in item.iter("Equipment"):
             self.owner[part.get("ID", "")] = node, None
@@ -185,6 +198,7 @@ class _Reading:
     def _component(self, item: ET.Element) -> None:
         name, key = item.get("ComponentClass", ""), self._id(item)
         values, custom = _values(item, DEXPI_SET), _values(item, CUSTOM_SET)
+        self._note(key, custom)
         what, point = values.get("TypeName", ""), _point(custom)
         if name in _THROUGH or item.tag == "PropertyBreak":
             self.through[key] = None
@@ -217,7 +231,11 @@ class _Reading:
         tag = item.get("TagName") or values.get("ProcessInstrumentationFunctionNumber")
         # Ours says 'no kind' by leaving it out.
         own = item.find("PersistentID[@Context='cadgraph']") is not None
-        self._unit(item, "gauge", tag, custom.get("Kind") if own else kind, custom, ())
+        self._note(self._unit(item, "gauge", tag, custom.get("Kind") if own else kind, custom, ()), custom)
+
+    def _note(self, name: str, custom: dict[str, str]) -> None:
+        if custom.get("Doubtful"):
+            self.doubtful[name] = None
 
     def _unit(
         self,

@@ -15,6 +15,8 @@ from cadgraph.export.dexpi.element import Ids, add_item, add_nodes, add_position
 from cadgraph.export.dexpi.terms import INSTRUMENT, Term, term_of_terminal, term_of_unit
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Terminal, Unit
+from cadgraph.query.doubt import open_sides
+from cadgraph.query.duty import duty_of, worked_by_hand
 from cadgraph.query.lines import Line, divides, find_lines
 from cadgraph.query.network import Arc, Network
 
@@ -134,13 +136,19 @@ class _Document:
 
     # Equipment
 
+    def _add_place(self, item: ET.Element, place: str, point: tuple[float, float, float]) -> None:
+        """Where an item is in the plant, and whether more may be joined to it there than a drawing can show."""
+        hand = duty_of(self.network, place) == "relief" and worked_by_hand(self.network, place)
+        doubtful = "yes" if hand or open_sides(self.network, (place,)) else None
+        add_values(item, {"X": point[0], "Y": point[1], "Z": point[2], "Doubtful": doubtful}, custom=True)
+
     def _equipment(self, place: str) -> None:
         unit = self.network.places[place]
         if not isinstance(unit, Unit):
             return
         item = add_item(self.root, "Equipment", self.ids, term_of_unit(unit), unit.tag, unit.id)
         add_values(item, {"TagName": unit.tag})
-        _add_place(item, unit.centroid)
+        self._add_place(item, place, unit.centroid)
         add_position(item, self.places.spots.get(place))
         arcs = self.network.arcs(place)
         for port in unit.ports:
@@ -303,7 +311,7 @@ class _Document:
         tag = node.tag if named and isinstance(node, Unit) else None
         item = add_item(segment, "PipingComponent", self.ids, term, tag, node.id if named else None)
         add_values(item, {"PipingComponentName": tag})
-        _add_place(item, node.centroid if isinstance(node, Unit) else node.point)
+        self._add_place(item, place, node.centroid if isinstance(node, Unit) else node.point)
         add_position(item, self.places.spots.get(place))
         return item
 
@@ -346,7 +354,7 @@ class _Document:
             },
         )
         add_values(item, {"Kind": unit.kind}, custom=True)
-        _add_place(item, unit.centroid)
+        self._add_place(item, place, unit.centroid)
         add_position(item, self.places.spots.get(place))
         if place not in self.sensed:
             return
@@ -379,10 +387,6 @@ def _flows(arcs: Sequence[Arc]) -> tuple[int | None, int | None]:
 
 def _first_size(arc: Arc) -> int | None:
     return arc.sizes[0] if arc.sizes else None
-
-
-def _add_place(item: ET.Element, point: tuple[float, float, float]) -> None:
-    add_values(item, {"X": point[0], "Y": point[1], "Z": point[2]}, custom=True)
 
 
 def _word(value: float | None) -> str | None:

@@ -12,6 +12,7 @@ from cadgraph.geometry.line.centreline import Branch, Centreline
 from cadgraph.geometry.line.part_lines import lines_of_parts
 from cadgraph.geometry.shape.analysis import shapes_of
 from cadgraph.model.derived import store_of
+from cadgraph.model.labels import Label
 from cadgraph.model.parts import Bools, Contacts, Parts
 from cadgraph.model.scene import Floats
 from cadgraph.stages.relate.attach import facings_of
@@ -279,13 +280,16 @@ def _single_ratio(given: RelateInput, roles: Roles, part: int, line: Centreline)
     # The labeler is no second opinion on what it said itself; and whoever else says that a mere cylinder is a
     # valve may mean it, unless labels are doubtful.
     said = label is not None and label is not given.opinions[part]
-    if said and (part in roles.backed or _may_be_device(line, roles.doubtful)):
-        return None
-    if label is not None and label.name in _IN_LINE and label.confidence >= _UNSURE:
+    if (said and (part in roles.backed or _may_be_device(line, roles.doubtful))) or _is_sure_in_line(label):
         return None
     if is_plain_tube(line):
         return _RATIO if roles.doubtful else _OWN_RATIO
     return _RATIO if roles.doubtful and is_disc(line) else None
+
+
+def _is_sure_in_line(label: Label | None) -> bool:
+    """Whether a part is surely a device that stands in a line and may be shaped like a piece of it."""
+    return label is not None and label.name in _IN_LINE and label.confidence >= _UNSURE
 
 
 def _jackets(given: RelateInput, traced: Mapping[int, Centreline], sure: Mapping[int, Centreline]) -> set[int]:
