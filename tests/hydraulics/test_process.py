@@ -215,9 +215,23 @@ def test_through_a_pump_that_stands_still_it_flows_as_it_is_driven(speed):
     state = back.steady({"P-001": speed})
     assert flow_of(back, "P-001") < -1
     assert any("flow back through it" in remark for remark in state.remarks)
-    [said] = [remark for remark in state.remarks if "is a source" in remark]
+    [said] = [remark for remark in state.remarks if "flow into it" in remark]
     into = -flow_of(back, "P-001")
     assert said == f"terminal-001 is a source, and {into:.2f} m3/h flow into it: more stands against it"
+
+
+def test_a_scenario_that_says_the_opposite_of_the_graph_is_told(plant):
+    assert not any("the other way" in remark for remark in plant.state.remarks)
+    turned = edited(plant, "pumps", "P-001", suction=("N2",))
+    assert (
+        "P-001 draws at N2 in the scenario, and by the graph it flows the other way at N2, N1: take its suction out of "
+        "the scenario to follow the graph"
+    ) in turned.state.remarks
+    turned = edited(plant, "ends", "terminal-001", role="source", pressure=1.0, flow=None)
+    assert any(
+        remark.startswith("terminal-001 is a source in the scenario, and by the graph it flows the other way there")
+        for remark in turned.state.remarks
+    )
 
 
 def test_a_relief_valve_opens_at_its_pressure_and_shuts_again():

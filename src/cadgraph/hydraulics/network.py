@@ -331,6 +331,12 @@ class _Laying:
             for port, arcs in ports.items():
                 self._port_node(place, port, arcs)
             return
+        turned = [port for drawing, of in sides.items() for port in of if _runs(ports[port], outward=drawing)]
+        if turned:
+            self.remarks.append(
+                f"{node.tag} draws at {', '.join(setting.suction)} in the scenario, and by the graph it flows the "
+                f"other way at {', '.join(turned)}: take its suction out of the scenario to follow the graph"
+            )
         ends = []
         for drawing in (True, False):
             nodes = [self._port_node(place, port, ports[port]) for port in sides[drawing]]
@@ -367,6 +373,11 @@ class _Laying:
         if setting is None or setting.role == "blind":
             return
         here, height = self.nodes[place], node.point[2]
+        if _runs(self.network.arcs(place), outward=setting.role == "sink"):
+            self.remarks.append(
+                f"{place} is a {setting.role} in the scenario, and by the graph it flows the other way there: take it "
+                "out of the scenario to follow the graph"
+            )
         if setting.role == "source":
             self.head[here] = height + self.scenario.head(setting.pressure or 0.0)
             return
@@ -433,3 +444,9 @@ class _Laying:
             remarks=tuple(self.remarks),
             assumed=self.assumed,
         )
+
+
+def _runs(arcs: Sequence[Arc], *, outward: bool) -> bool:
+    """Whether it is known to flow away from where connections start, or towards it, and through none the other way."""
+    flows = {arc.flow for arc in arcs} - {"unknown"}
+    return flows == {"along" if outward else "against"}

@@ -77,7 +77,8 @@ def _gauges(process: Process) -> Iterator[Standing]:
         if gauge.measures == "pressure" and pressure is not None and pressure < -_FEW:
             notes.append(f"below its scale: {pressure:.2f} bar")
         elif gauge.span and reading is not None and reading >= gauge.span:
-            notes.append("at the end of its scale")
+            beyond = gauge.measures == "pressure" and pressure is not None and pressure > gauge.span + _FEW
+            notes.append(f"beyond its scale: {pressure:.2f} bar" if beyond else "at the end of its scale")
         if node in state.shut_in:
             notes.append("shut in" if pressure is not None else "nothing of known pressure reaches it")
         yield Standing(tag, "gauge", reading, gauge.unit or "", ", ".join(notes))
