@@ -12,6 +12,9 @@ from cadgraph.errors import LabelError, OutputError, UnknownNode
 from cadgraph.labelers.base import Labeling
 from cadgraph.model.corrections import CorrectionsFile, History, read_history
 from cadgraph.model.scene import Scene
+from cadgraph.model.vocabulary import default_vocabulary
+from cadgraph.query.duty import duty_of
+from cadgraph.query.network import Network
 from cadgraph.session.session import Session
 from sketch import Sketch, around, block
 
@@ -193,6 +196,27 @@ def test_two_units_change_tags_with_each_other_in_one_correction():
         "V-001": before["T-001"], "T-001": before["V-001"],
     }  # fmt: skip
     assert not session.lost
+
+
+def test_what_a_unit_is_counts_for_all_that_follows(tmp_path):
+    session = session_of(line_with_a_gap(), file=CorrectionsFile(tmp_path))
+    change = session.apply([{"kind": "device", "unit": "V-001", "device": " check valve "}])
+    assert change.message.startswith("V-001 is a check valve")
+    unit = session.graph.unit("V-001")
+    assert (unit.kind, unit.kind_guesses) == ("check valve", ())
+    assert duty_of(Network(session.graph), unit.id) == "check"
+    with pytest.raises(ValueError, match="V-001 is a check valve already"):
+        session.apply([{"kind": "device", "unit": "V-001", "device": "check valve"}])
+    with pytest.raises(ValueError, match="both in one correction"):
+        session.apply([{"kind": "device", "unit": "V-001", "device": name} for name in ("ball valve", "gate valve")])
+    again = session_of(line_with_a_gap(), CorrectionsFile(tmp_path).read(default_vocabulary()))
+    assert again.graph.unit("V-001").kind == "check valve"
+    session.apply([{"kind": "device", "unit": "V-001", "device": "gate valve"}])
+    assert session.graph.unit("V-001").kind == "gate valve"
+    assert len(session.corrections) == 1
+    session.undo()
+    session.undo()
+    assert session.graph.unit("V-001").kind != "check valve"
 
 
 def test_units_that_keep_their_numbers_keep_them_when_one_before_them_is_gone():

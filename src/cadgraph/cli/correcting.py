@@ -41,6 +41,10 @@ def correct(
         list[str] | None,
         typer.Option("--tag", metavar="UNIT=TAG", help="What the plant calls a unit: V-001=V-4711. May be repeated."),
     ] = None,
+    device: Annotated[
+        list[str] | None,
+        typer.Option("--device", metavar="UNIT=KIND", help="What a unit is: V-002='check valve'. May be repeated."),
+    ] = None,
     keep_tags: Annotated[
         bool, typer.Option("--keep-tags", help="Units keep the tags that they have now, whatever is corrected later.")
     ] = False,
@@ -89,7 +93,7 @@ def correct(
     graph = SceneGraph.load(folder)
     edits = [
         *_labels(label or [], forget or [], this_only),
-        *_tags(folder, tag or [], keep_tags),
+        *_tags(folder, tag or [], keep_tags, device or []),
         *_units(graph, merge, split),
         *_joints(graph, join, cut),
         *(_flow(one) for one in flow or []),
@@ -154,11 +158,14 @@ def _labels(labels: list[str], forget: list[str], this_only: bool) -> list[dict[
     return [*said, *({"kind": "forget", "part": part} for part in forget)]
 
 
-def _tags(folder: Path, given: list[str], keep: bool) -> list[Mapping[str, Any]]:
+def _tags(folder: Path, given: list[str], keep: bool, devices: list[str]) -> list[Mapping[str, Any]]:
+    """What units are called, and what they are."""
     from cadgraph.session.correct import number_keepers
 
     called: list[Mapping[str, Any]] = [
-        dict(zip(("kind", "unit", "tag"), ("tag", *_sides("tag", one)), strict=True)) for one in given
+        dict(zip(("kind", "unit", kind), (kind, *_sides(kind, one)), strict=True))
+        for kind, texts in (("tag", given), ("device", devices))
+        for one in texts
     ]
     return [*called, *(number_keepers(folder) if keep else [])]
 
@@ -176,7 +183,8 @@ def _joints(graph: SceneGraph, join: _Pair, cut: _Pair) -> list[dict[str, Any]]:
 def _sides(kind: str, text: str) -> tuple[str, str]:
     first, equals, second = text.partition("=")
     if not (first.strip() and equals and second.strip()):
-        example = "part-00012=Valve assembly/handwheel" if kind == "label" else "V-001=V-4711"
+        examples = {"label": "part-00012=Valve assembly/handwheel", "device": "V-002='check valve'"}
+        example = examples.get(kind, "V-001=V-4711")
         raise ValueError(f"--{kind} {text}: write it as {example}")
     return first.strip(), second.strip()
 

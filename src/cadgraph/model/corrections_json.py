@@ -14,6 +14,7 @@ from cadgraph.model.edits import (
     LONGEST_TAG,
     Correction,
     Cut,
+    Device,
     Direction,
     Edit,
     Forget,
@@ -76,6 +77,8 @@ def _edit_row(edit: Edit) -> dict[str, Any]:
             return {"kind": "direction", **row, "ends": [list(end) for end in edit.ends], "flow": edit.flow}
         case Tag():
             return {"kind": "tag", "parts": _anchor_rows(edit.parts), "tag": edit.tag}
+        case Device():
+            return {"kind": "device", "parts": _anchor_rows(edit.parts), "device": edit.device}
         case Ground():
             return {"kind": "ground", "mesh": _anchor_row(edit.mesh), "ground": edit.ground}
 
@@ -181,12 +184,19 @@ def _direction(row: Mapping[str, Any], place: str) -> Direction:
 
 
 def _tag(row: Mapping[str, Any], place: str) -> Tag:
-    text = _text(row, "tag", place)
+    return Tag(_anchors(row, "parts", place, least=1), _called(row, "tag", place))
+
+
+def _device(row: Mapping[str, Any], place: str) -> Device:
+    return Device(_anchors(row, "parts", place, least=1), _called(row, "device", place))
+
+
+def _called(row: Mapping[str, Any], key: str, place: str) -> str:
+    text = _text(row, key, place)
     try:
-        tag = check_tag(text)
+        return check_tag(text)
     except ValueError as error:
-        raise LabelError(f"{place}: 'tag': {error} (at most {LONGEST_TAG} printable characters)") from None
-    return Tag(_anchors(row, "parts", place, least=1), tag)
+        raise LabelError(f"{place}: {key!r}: {error} (at most {LONGEST_TAG} printable characters)") from None
 
 
 def _part(row: Mapping[str, Any], key: str, place: str) -> Anchor:
@@ -202,6 +212,7 @@ _READERS: Mapping[str, Callable[[Mapping[str, Any], str], Edit]] = {
     "cut": lambda row, place: Cut(_part(row, "first", place), _part(row, "second", place)),
     "direction": _direction,
     "tag": _tag,
+    "device": _device,
     "ground": lambda row, place: Ground(_part(row, "mesh", place), _flag(row, "ground", place)),
 }
 

@@ -14,6 +14,7 @@ __all__ = [
     "LOST",
     "Correction",
     "Cut",
+    "Device",
     "Direction",
     "Edit",
     "Forget",
@@ -157,6 +158,19 @@ class Tag:
 
 
 @dataclass(frozen=True)
+class Device:
+    """What kind of device a unit is.
+
+    Args:
+        parts: of the unit, the largest ones first.
+        device: its kind in words, ``"check valve"``.
+    """
+
+    parts: tuple[Anchor, ...]
+    device: str
+
+
+@dataclass(frozen=True)
 class Ground:
     """Whether a mesh is the ground, which belongs to no structure.
 
@@ -169,7 +183,7 @@ class Ground:
     ground: bool
 
 
-Edit: TypeAlias = Correction | Forget | Merge | Split | Join | Cut | Direction | Tag | Ground
+Edit: TypeAlias = Correction | Forget | Merge | Split | Join | Cut | Direction | Tag | Device | Ground
 """One thing that a user corrected, by what it is found again in another export of the model."""
 
 
@@ -210,6 +224,8 @@ def _about(edit: Edit, number: int) -> tuple[object, ...]:
             return "ground", edit.mesh.mesh
         case Tag():
             return "tag", *sorted(part.mesh for part in edit.parts)
+        case Device():
+            return "device", *sorted(part.mesh for part in edit.parts)
         case _:
             # The order of merges and splits counts; a direction is matched with its connection first.
             return "each", number
@@ -235,6 +251,8 @@ def describe(edit: Edit) -> str:
             return f"direction taken back along {way}" if edit.flow == "unknown" else f"direction along {way}"
         case Tag():
             return f"tag {edit.tag} of the unit of {_paths(edit.parts)}"
+        case Device():
+            return f"{edit.device} as what the unit of {_paths(edit.parts)} is"
         case Ground():
             return f"{edit.mesh.mesh} as {'the ground' if edit.ground else 'no ground'}"
 
@@ -246,7 +264,7 @@ def meshes_of(edit: Edit) -> tuple[str, ...]:
             return (edit.mesh,)
         case Forget():
             return (edit.part.mesh,)
-        case Merge() | Split() | Tag():
+        case Merge() | Split() | Tag() | Device():
             return tuple(anchor.mesh for anchor in edit.parts)
         case Join() | Cut():
             return edit.first.mesh, edit.second.mesh

@@ -112,7 +112,7 @@ def _goal(action: Action, name: str, find: Callable[[str], Node], stage: int) ->
     kind = (node.kind or "").casefold()
     for word, why in _NOT_BY_HAND:
         if action != "read" and word in kind:
-            raise AskError(f"{name} is a {shown(kind)}, which {why}; leave it out, or correct its label")
+            raise AskError(f"{name} is a {shown(kind)}, which {why}; leave it out, or correct what it is (--device)")
     return Goal(action, node.id, name, stage)
 
 

@@ -151,7 +151,9 @@ def number_keepers(folder: str | Path) -> list[Mapping[str, Any]]:
     """
     graph, target = _opened(folder)
     given = {edit.tag for edit in read_history(target).in_force if isinstance(edit, Tag)}
-    edits = [{"kind": "tag", "unit": unit.id, "tag": unit.tag} for unit in graph.units() if unit.tag not in given]
+    edits: list[Mapping[str, Any]] = [
+        {"kind": "tag", "unit": unit.id, "tag": unit.tag} for unit in graph.units() if unit.tag not in given
+    ]
     if not edits:
         raise ValueError(f"{target}: no unit whose tag could change: each that there is keeps it by a correction")
     return edits

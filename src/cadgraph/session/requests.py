@@ -18,6 +18,7 @@ from cadgraph.model.anchors import Anchor, Fingerprint, anchor_of
 from cadgraph.model.edits import (
     Correction,
     Cut,
+    Device,
     Direction,
     Edit,
     Forget,
@@ -104,6 +105,14 @@ class TagRequest(_Request):
     tag: str
 
 
+class DeviceRequest(_Request):
+    """What kind of device a unit is."""
+
+    kind: Literal["device"]
+    unit: _Name
+    device: str
+
+
 class GroundRequest(_Request):
     """Whether a part is the ground."""
 
@@ -113,7 +122,14 @@ class GroundRequest(_Request):
 
 
 EditRequest = Annotated[
-    LabelRequest | ForgetRequest | UnitRequest | JointRequest | DirectionRequest | TagRequest | GroundRequest,
+    LabelRequest
+    | ForgetRequest
+    | UnitRequest
+    | JointRequest
+    | DirectionRequest
+    | TagRequest
+    | DeviceRequest
+    | GroundRequest,
     Field(discriminator="kind"),
 ]
 """One correction, by the ids of a graph."""
@@ -253,6 +269,12 @@ class Requests:
         words = f"{unit.tag} keeps its tag" if tag == unit.tag else f"{unit.tag} is called {tag}"
         return Tag(self._anchors_of(unit), tag), words
 
+    def _device(self, request: DeviceRequest) -> tuple[Edit, str]:
+        unit, device = self.graph.unit(request.unit), check_tag(request.device)
+        if unit.kind == device:
+            raise ValueError(f"{unit.tag} is a {device} already")
+        return Device(self._anchors_of(unit), device), f"{unit.tag} is a {device}"
+
     def _refuse_tags(self, requests: Sequence[TagRequest]) -> None:
         """Refuses a tag that another unit would have once all are given: two units may change tags with each other."""
         given = {self.graph.unit(request.unit).id: check_tag(request.tag) for request in requests}
@@ -381,6 +403,8 @@ def _about(edit: Edit) -> tuple[tuple[str, object], object] | None:
         return ("label", edit.part.mesh), None
     if isinstance(edit, Tag):
         return ("tag", edit.parts[0].mesh), edit.tag
+    if isinstance(edit, Device):
+        return ("device", edit.parts[0].mesh), edit.device
     if isinstance(edit, Ground):
         return ("ground", edit.mesh.mesh), edit.ground
     if isinstance(edit, Direction):

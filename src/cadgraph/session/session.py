@@ -205,7 +205,8 @@ class Session:
             edits: one object each with its ``kind`` and, by the ids of the graph, what it is about: ``label``
                 (``part``, ``group``, ``name``, ``this_only``), ``forget`` (``part``), ``merge``, ``split`` (``parts``),
                 ``join`` and ``cut`` (``first``, ``second``), ``direction`` (``source``, ``target``, ``via``,
-                ``flow``), ``tag`` (``unit``, ``tag``), ``ground`` (``part``, ``ground``).
+                ``flow``), ``tag`` (``unit``, ``tag``), ``device`` (``unit``, ``device``), ``ground`` (``part``,
+                ``ground``).
             who: name of the user.
             why: the reason.
 

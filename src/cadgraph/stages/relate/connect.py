@@ -17,7 +17,7 @@ from cadgraph.stages.relate.contract import Closed, simplify
 from cadgraph.stages.relate.cover import Cover, cover_of
 from cadgraph.stages.relate.edit_flow import set_flow, unmet_flow
 from cadgraph.stages.relate.edit_joints import bridge_solids, joint_of_solids, unmet_joints
-from cadgraph.stages.relate.edit_units import edit_groups, edit_units, tag_as_corrected
+from cadgraph.stages.relate.edit_units import call_as_corrected, edit_groups, edit_units, tag_as_corrected
 from cadgraph.stages.relate.edits import Unmet
 from cadgraph.stages.relate.flow import direct_flow, stated_flow
 from cadgraph.stages.relate.kind import name_kinds
@@ -91,10 +91,11 @@ def connect_units(given: RelateInput) -> Connected:
     network = replace(_contract(piping, units, drawing, names), joints=_joints(piping, units, drawing))
     network = name_kinds(network, names, given.parts)
     network, told = name_as_stated(network, named, given.parts, given.vocabulary)
+    network, strange = call_as_corrected(network, given.edits)
     stated = stated_flow(network, given.config.relate.flow, former)
     by_user = set_flow(network, given.edits)
     network, contradictions = direct_flow(network, given.parts, names, stated, given.stated, by_user.evidence)
-    unmet += [*untagged, *_unjoined(piping, network), *by_user.unmet, *unmet_flow(network, by_user)]
+    unmet += [*untagged, *strange, *_unjoined(piping, network), *by_user.unmet, *unmet_flow(network, by_user)]
     network = drop_stubs(network)
     diagnostics = (
         *find_shortfalls(piping, network),
@@ -122,7 +123,8 @@ def _as_paper(given: RelateInput) -> Connected:
     named = tag_as_stated(units, given.statements, given.parts, given.labels, given.vocabulary)
     named, untagged = tag_as_corrected(named, edits)
     network, told = name_as_stated(Network(named.units), named, given.parts, given.vocabulary)
-    return Connected(network, tuple(given.labels), (*named.diagnostics, *told), (*unmet, *untagged))
+    network, strange = call_as_corrected(network, edits)
+    return Connected(network, tuple(given.labels), (*named.diagnostics, *told), (*unmet, *untagged, *strange))
 
 
 def _joints(piping: Piping, units: Sequence[UnitParts], drawing: Drawing) -> tuple[Joint, ...]:

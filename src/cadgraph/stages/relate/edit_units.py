@@ -6,9 +6,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from cadgraph.model.names import loose_tag
-from cadgraph.model.parts import UnitParts
+from cadgraph.model.parts import Network, UnitParts
 from cadgraph.model.scene import Floats
-from cadgraph.stages.relate.edits import NetworkEdits, TagEdit, UnitEdit, Unmet
+from cadgraph.stages.relate.edits import DeviceEdit, NetworkEdits, TagEdit, UnitEdit, Unmet
 from cadgraph.stages.relate.piping import Group, Piping
 from cadgraph.stages.relate.stated_names import Named, renumbered
 
@@ -117,6 +117,29 @@ def tag_as_corrected(named: Named, edits: NetworkEdits) -> tuple[Named, list[Unm
     return replace(named, units=units), unmet
 
 
+def call_as_corrected(network: Network, edits: NetworkEdits) -> tuple[Network, list[Unmet]]:
+    """Makes units the kinds of devices that a user says they are, whatever shape and file say.
+
+    Args:
+        network: with its units.
+        edits: of a user.
+
+    Returns:
+        The network, and the edits that don't fit.
+    """
+    if not edits.devices:
+        return network, []
+    owner = {part: k for k, unit in enumerate(network.units) for part in unit.parts}
+    units, unmet = list(network.units), list[Unmet]()
+    for edit in edits.devices:
+        number = _unit_of(edit, owner)
+        if number is None:
+            unmet.append((edit.number, _NO_UNIT))
+        else:
+            units[number] = replace(units[number], kind=edit.device, kind_guesses=())
+    return replace(network, units=tuple(units)), unmet
+
+
 def _wanted(units: Sequence[UnitParts], edits: Sequence[TagEdit]) -> tuple[dict[int, TagEdit], list[Unmet]]:
     """The tag of each unit that a user gave one, each tag once; and the edits that don't fit."""
     owner = {part: k for k, unit in enumerate(units) for part in unit.parts}
@@ -133,7 +156,7 @@ def _wanted(units: Sequence[UnitParts], edits: Sequence[TagEdit]) -> tuple[dict[
     return wanted, unmet
 
 
-def _unit_of(edit: TagEdit, owner: Mapping[int, int]) -> int | None:
+def _unit_of(edit: TagEdit | DeviceEdit, owner: Mapping[int, int]) -> int | None:
     """The unit that most of an edit's parts are in, of several the one of its first part."""
     homes = [owner[part] for part in edit.parts if part in owner]
     return max(homes, key=lambda k: (homes.count(k), -homes.index(k)), default=None)

@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from cadgraph.model.anchors import Anchored
-from cadgraph.model.edits import Cut, Direction, Edit, Flow, Join, Merge, Split, Tag
+from cadgraph.model.edits import Cut, Device, Direction, Edit, Flow, Join, Merge, Split, Tag
 from cadgraph.model.scene import Floats
 
 __all__ = ["BY_USER", "CUT", "FlowEdit", "JointEdit", "NetworkEdits", "TagEdit", "UnitEdit", "Unmet", "place_edits"]
@@ -92,6 +92,21 @@ class TagEdit:
     tag: str
 
 
+@dataclass(frozen=True)
+class DeviceEdit:
+    """What kind of device a unit is.
+
+    Args:
+        number: of the edit.
+        parts: of the unit.
+        device: its kind in words.
+    """
+
+    number: int
+    parts: tuple[int, ...]
+    device: str
+
+
 @dataclass(frozen=True, eq=False)
 class NetworkEdits:
     """All that a user corrected of the network, each kind in the order in which it was done.
@@ -101,6 +116,7 @@ class NetworkEdits:
         joints: made and cut.
         flows: directions.
         tags: of units.
+        devices: what units are.
         unmet: edits whose parts aren't there.
     """
 
@@ -108,6 +124,7 @@ class NetworkEdits:
     joints: tuple[JointEdit, ...] = ()
     flows: tuple[FlowEdit, ...] = ()
     tags: tuple[TagEdit, ...] = ()
+    devices: tuple[DeviceEdit, ...] = ()
     unmet: tuple[Unmet, ...] = ()
 
     @cached_property
@@ -131,6 +148,7 @@ class _Placed:
     joints: list[JointEdit] = field(default_factory=list)
     flows: list[FlowEdit] = field(default_factory=list)
     tags: list[TagEdit] = field(default_factory=list)
+    devices: list[DeviceEdit] = field(default_factory=list)
 
     def place(self, number: int, edit: Edit) -> str | None:
         """Takes an edit in; returns why it can't be."""
@@ -144,6 +162,10 @@ class _Placed:
             case Tag():
                 found = self.parts.find_all(edit.parts)
                 self.tags += [TagEdit(number, tuple(found), edit.tag)] if found else []
+                return None if found else _GONE.format("all", len(edit.parts))
+            case Device():
+                found = self.parts.find_all(edit.parts)
+                self.devices += [DeviceEdit(number, tuple(found), edit.device)] if found else []
                 return None if found else _GONE.format("all", len(edit.parts))
             case _:
                 return None
@@ -184,4 +206,11 @@ def place_edits(edits: Sequence[Edit], parts: Anchored) -> NetworkEdits:
     placed = _Placed(parts)
     told = ((number, placed.place(number, edit)) for number, edit in enumerate(edits))
     unmet = tuple((number, why) for number, why in told if why is not None)
-    return NetworkEdits(tuple(placed.units), tuple(placed.joints), tuple(placed.flows), tuple(placed.tags), unmet)
+    return NetworkEdits(
+        tuple(placed.units),
+        tuple(placed.joints),
+        tuple(placed.flows),
+        tuple(placed.tags),
+        tuple(placed.devices),
+        unmet,
+    )
