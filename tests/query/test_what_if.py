@@ -286,4 +286,7 @@ def test_a_loop_that_a_pump_drives_by_itself_is_not_said_to_be_cut_off():
     found = what_if(network([*nodes, terminal(2)], ways), "V-001")
     driven = {one.name for one in found.unknown if "round a loop" in one.why}
     assert driven == {"P-001", "V-002", "G-001"}
+    assert found.dead_headed == ()
+    shut = what_if(network([*nodes, terminal(2)], ways), "V-002")
+    assert [one.name for one in shut.dead_headed] == ["P-001"]
     assert not any("run dry" in remark for remark in found.remarks)

@@ -372,8 +372,20 @@ class _Closing:
         return [p for p in pumps if self._delivers(p, ()) and not self._delivers(p, barriers)]
 
     def _delivers(self, pump: str, blocked: Collection[str]) -> bool:
-        """Whether a pump has a way to a tank or an end; one through a relief valve is none that it is run by."""
-        return any(map(self._lets_out, self._reach((pump,), {*blocked, *self._reliefs_in_line})))
+        """Whether a pump has a way to a tank or an end, or round to itself; none through a relief valve counts."""
+        barred = {*blocked, *self._reliefs_in_line}
+        return any(map(self._lets_out, self._reach((pump,), barred))) or self._goes_round(pump, barred)
+
+    def _goes_round(self, pump: str, barred: Collection[str]) -> bool:
+        """Whether what leaves a pump comes back to it by another of its connections."""
+        arcs = self.network.main_arcs(pump)
+        return any(
+            other.index != arc.index and other.end in found
+            for arc in arcs
+            if self._follows(arc) and (found := self._reach((arc.end,), {*barred, pump}))
+            for other in arcs
+            if self._follows(other.back)
+        )
 
     @cached_property
     def _reliefs(self) -> tuple[str, ...]:
