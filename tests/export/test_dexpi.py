@@ -390,3 +390,13 @@ def test_where_the_plant_was_doubtful_its_drawing_is(tmp_path):
     assert found.isolated is None
     assert "the plant that this drawing was written from goes on here, maybe" in found.doubts[0].text
     assert compare(doubtful, drawn).skipped == ()
+
+
+def test_an_instrument_somewhere_in_a_segment_is_told(tmp_path):
+    graph = made(("T-001.N1 G-001 V-001 T-002.N1",), [("V-001", "gate valve")])
+    file = write_dexpi(graph, tmp_path / "plant.xml")
+    assert read_dexpi(file).diagnostics == ()
+    file.write_text(file.read_text("utf-8").replace('Name="DistanceAlongSegment"', 'Name="Other"'), "utf-8")
+    (note,) = read_dexpi(file).diagnostics
+    assert note.code == "dexpi-somewhere"
+    assert note.message.endswith("are not the drawing's: G-001")

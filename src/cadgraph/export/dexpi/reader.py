@@ -49,6 +49,8 @@ _SKIPPED = {
     "tag-twice": "tags are used more than once; later ones get their ID behind them",
     "unknown-end": "connections end at something that the file doesn't hold; taken for ends of pipes",
     "no-ends": "segments join nothing",
+    "somewhere": "instruments are located in a segment of several items, where in it the file does not say; what is "
+    "beside them here, and their order, are not the drawing's",
     "doubtful": "places at which more may be joined than the file says: the graph that it was written from tells what",
 }
 
@@ -113,6 +115,7 @@ class _Reading:
         self.systems: dict[str, set[str]] = {}
         self.skipped: dict[str, list[str]] = {}
         self.tags: set[str] = set()
+        self.somewhere: set[str] = set()  # instruments of which the file says no place along their segment
         self.doubtful: dict[str, None] = {}  # ids of nodes at which the plant was doubtful
 
     def graph(self) -> SceneGraph:
@@ -132,7 +135,7 @@ class _Reading:
                 nodes=(Site(id="site"), *self.nodes.values(), *self._systems(set(used), edges)),
                 edges=(*edges, *self._contains(set(used))),
                 diagnostics=tuple(
-                    Diagnostic(f"dexpi-{code}", _told(code, names)) for code, names in self.skipped.items()
+                    Diagnostic(f"dexpi-{code}", _told(code, names)) for code, names in self.skipped.items() if names
                 )
                 + self._doubts(),
             )
@@ -279,6 +282,7 @@ class _Reading:
         for item in self.root.iter("ProcessInstrumentationFunction"):
             for sensor in item.iter("ProcessSignalGeneratingFunction"):
                 distance = _number(_values(sensor, CUSTOM_SET).get("DistanceAlongSegment"))
+                self.somewhere.update([self._id(item)] if distance is None else [])
                 for link in sensor.findall("Association[@Type='is located in']"):
                     found.setdefault(link.get("ItemID", ""), []).append((distance or 0.0, self._id(item)))
         return {segment: sorted(rows) for segment, rows in found.items()}
@@ -296,6 +300,9 @@ class _Reading:
         for number, chain in enumerate(self._chains(segment, base)):
             # Which of several chains in one segment an instrument stands on, nobody says.
             nodes, ports, pipes = with_sensors(chain, sensors if number == 0 else [])
+            if number == 0 and len(chain.pipes) > 1:
+                lost = [self.nodes[name] for _, name in sensors if name in self.somewhere]
+                self.skipped.setdefault("somewhere", []).extend(node.tag for node in lost if isinstance(node, Unit))
             if not pipes:
                 self.skipped.setdefault("no-ends", []).append(segment.get("ID", "?"))
             for i, pipe in enumerate(pipes):
