@@ -390,6 +390,8 @@ def test_where_the_plant_was_doubtful_its_drawing_is(tmp_path):
     assert found.isolated is None
     assert "the plant that this drawing was written from goes on here, maybe" in found.doubts[0].text
     assert compare(doubtful, drawn).skipped == ()
+    short = network([unit("T-001"), unit("P-001")], chain("T-001 P-001"))
+    assert there_and_back(short, tmp_path).diagnostics == ()
 
 
 def test_an_instrument_somewhere_in_a_segment_is_told(tmp_path):

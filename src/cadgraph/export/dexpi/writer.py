@@ -15,7 +15,7 @@ from cadgraph.export.dexpi.element import Ids, add_item, add_nodes, add_position
 from cadgraph.export.dexpi.terms import INSTRUMENT, Term, term_of_terminal, term_of_unit
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Terminal, Unit
-from cadgraph.query.doubt import open_sides
+from cadgraph.query.doubt import few_ports, open_sides
 from cadgraph.query.duty import duty_of, worked_by_hand
 from cadgraph.query.lines import Line, divides, find_lines
 from cadgraph.query.network import Arc, Network
@@ -139,7 +139,9 @@ class _Document:
     def _add_place(self, item: ET.Element, place: str, point: tuple[float, float, float]) -> None:
         """Where an item is in the plant, and whether more may be joined to it there than a drawing can show."""
         hand = duty_of(self.network, place) == "relief" and worked_by_hand(self.network, place)
-        doubtful = "yes" if hand or open_sides(self.network, (place,)) else None
+        # That a unit has too few lines is to be seen in the drawing, too.
+        hidden = few_ports(self.network, place) is None and open_sides(self.network, (place,))
+        doubtful = "yes" if hand or hidden else None
         add_values(item, {"X": point[0], "Y": point[1], "Z": point[2], "Doubtful": doubtful}, custom=True)
 
     def _equipment(self, place: str) -> None:
