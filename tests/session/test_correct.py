@@ -177,6 +177,7 @@ def test_a_correction_leaves_likely_labels_of_a_model_likely(tmp_path):
     run(DEMO_SCENE, tmp_path, Config().replace({"load.isolate": False}), report=False)
     content = json.loads((tmp_path / "graph.json").read_text())
     content["config"]["lvlm"]["ask"] = "unsure"
+    content["diagnostics"].append({"code": "lvlm-budget", "message": "3 parts were not asked about", "meshes": []})
     SceneGraph.from_json(content).save(tmp_path)
     before = SceneGraph.load(tmp_path)
     likely = {part.meshes[0]: part.label for part in before.parts() if part.label is not None and part.label.likely}
@@ -185,6 +186,7 @@ def test_a_correction_leaves_likely_labels_of_a_model_likely(tmp_path):
     now = step_back_or_forth(tmp_path, "undo", report=False).outcome.graph
     assert likely
     assert {p.meshes[0]: p.label for p in now.parts() if p.label is not None and p.label.likely} == likely
+    assert "lvlm-budget" in {note.code for note in now.diagnostics}
     assert [(u.tag, u.kind, u.parts) for u in now.units()] == [(u.tag, u.kind, u.parts) for u in before.units()]
 
 

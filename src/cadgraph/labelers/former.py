@@ -21,6 +21,7 @@ from cadgraph.model.vocabulary import Vocabulary
 
 __all__ = ["FormerLabeler", "former_labeler", "settings_with"]
 
+_OF_LABELERS = ("lvlm-", "unknown-label")  # how the codes of what labelers report begin
 _LAID = ("author", "catalog")  # sources of labels that are laid over those of any labeler, and are laid anew
 
 
@@ -79,7 +80,9 @@ class FormerLabeler:
             part.guesses if part is not None and answer is None else ()
             for part, answer in zip(former, answers, strict=True)
         )
-        said = replace(Labeling.judge(answers, 0.0, sure=sure), guesses=guesses)
+        # What asking came to still holds: nobody is asked now.
+        told = [note for note in self._graph.diagnostics if note.code.startswith(_OF_LABELERS)]
+        said = replace(Labeling.judge(answers, 0.0, None, told, sure), guesses=guesses)
         return replace(said, probabilities=self._probabilities(base, said, vocabulary)) if self._probable else said
 
     def _probabilities(self, base: Labeling, said: Labeling, vocabulary: Vocabulary) -> Probabilities:
