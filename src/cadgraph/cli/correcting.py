@@ -160,14 +160,14 @@ def _labels(labels: list[str], forget: list[str], this_only: bool) -> list[dict[
 
 def _tags(folder: Path, given: list[str], keep: bool, devices: list[str]) -> list[Mapping[str, Any]]:
     """What units are called, and what they are."""
-    from cadgraph.session.correct import number_keepers
+    from cadgraph.session.correct import edits_to_keep_tags
 
     called: list[Mapping[str, Any]] = [
         dict(zip(("kind", "unit", kind), (kind, *_sides(kind, one)), strict=True))
         for kind, texts in (("tag", given), ("device", devices))
         for one in texts
     ]
-    return [*called, *(number_keepers(folder) if keep else [])]
+    return [*called, *(edits_to_keep_tags(folder) if keep else [])]
 
 
 def _units(graph: SceneGraph, merge: _Pair, split: list[str] | None) -> list[dict[str, Any]]:

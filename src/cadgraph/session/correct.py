@@ -23,7 +23,7 @@ from cadgraph.session.run import Clock, Outcome, stage_graph, write_rest
 from cadgraph.session.session import Change, Session, changed_parts
 from cadgraph.session.told import tell_flow, tell_lines, tell_renamed, tell_units
 
-__all__ = ["Amendment", "amend", "apply_edits", "number_keepers", "step_back_or_forth"]
+__all__ = ["Amendment", "amend", "apply_edits", "edits_to_keep_tags", "step_back_or_forth"]
 
 
 _DISAGREE = ("flow-contradiction", "flow-disagrees")
@@ -136,7 +136,7 @@ def apply_edits(
     return _changed(before, target, lambda session: session.apply(edits, who=who, why=why), scene, report, progress)
 
 
-def number_keepers(folder: str | Path) -> list[Mapping[str, Any]]:
+def edits_to_keep_tags(folder: str | Path) -> list[Mapping[str, Any]]:
     """The edits by which units keep the tags that they have, whatever is corrected later; see ``apply_edits``.
 
     Tags that no plant gave are numbers in the order of the parts: where a correction takes one unit away, those after

@@ -45,6 +45,8 @@ def tell_replaced(there: Counter[str], graph: SceneGraph) -> tuple[str, ...]:
         there: see ``labels_there``.
         graph: that takes the place of the earlier one.
     """
+    if not there:
+        return ()
     now = Counter(_KINDS.get(part.label.source, "") for part in graph.parts() if part.label is not None)
     told = []
     if there["model"] and not now["model"]:
