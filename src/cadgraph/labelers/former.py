@@ -88,7 +88,7 @@ class FormerLabeler:
     def _probabilities(self, base: Labeling, said: Labeling, vocabulary: Vocabulary) -> Probabilities:
         """The base's own where the graph says what it says, else what the graph's labels and guesses leave open."""
         n_parts = len(said.answers)
-        known = LabelBeliefs(vocabulary, base if self._base is not None else None, n_parts)
+        known = LabelBeliefs(vocabulary, base, n_parts)
         other = LabelBeliefs(vocabulary, said, n_parts)
         differs = [_in_short(a) != _in_short(b) for a, b in zip(base.labels, said.labels, strict=True)]
         rows = np.flatnonzero(np.array(differs, np.bool_) & other.known)

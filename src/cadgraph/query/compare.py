@@ -12,10 +12,9 @@ import numpy as np
 from cadgraph._io.text import tag_key
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Terminal, Unit
-from cadgraph.query.doubt import DRAWN_FROM_DOUBT
 from cadgraph.query.lines import Line, find_lines
 from cadgraph.query.matching import Match, kind_words, match_units
-from cadgraph.query.network import Network
+from cadgraph.query.network import DRAWN_FROM_DOUBT, Network
 from cadgraph.query.regions import Region, find_regions
 
 __all__ = [
@@ -200,6 +199,7 @@ def compare(
     regions = names.regions(0), names.regions(1)
     agreeing, extra, missing = _connections(names, regions)
     same, orders = _orders(names)
+    at_units = _by_ends(names, regions[0], 0), _by_ends(names, regions[1], 1)
     return Comparison(
         found=tuple(
             Found(networks[0].name(m.plant), networks[1].name(m.plan), networks[0].what(m.plant), m.by, m.sure)
@@ -216,9 +216,9 @@ def compare(
         missing=missing,
         lines=same,
         orders=orders,
-        directions=_directions(names, regions),
+        directions=_directions(names, *at_units),
         kinds=(*_kinds(networks, matching.pairs), *_kinds_of_alike(networks, matching.alike)),
-        ends=_ends(names, regions),
+        ends=_ends(names, *at_units),
         skipped=tuple(finding.message for finding in plan.diagnostics if finding.code != DRAWN_FROM_DOUBT),
     )
 
@@ -357,9 +357,11 @@ def _row(names: _Names, line: Line, side: int) -> list[str]:
     return [of[name] for name in (line.start, *line.through, line.end) if name in of]
 
 
-def _directions(names: _Names, regions: tuple[list[Region], list[Region]]) -> tuple[OtherDirection, ...]:
+_AtUnits = Mapping[tuple[str, ...], Sequence[Region]]
+
+
+def _directions(names: _Names, built: _AtUnits, drawn: _AtUnits) -> tuple[OtherDirection, ...]:
     """Where the flow goes the other way, in the pieces of pipe that join the same units in both."""
-    built, drawn = (_by_ends(names, found, side) for side, found in enumerate(regions))
     skipped = []
     for ends, own in built.items():
         others = drawn.get(ends, [])
@@ -390,13 +392,12 @@ def _against(ends: tuple[str, ...], built: Mapping[str, str], planned: Mapping[s
     ]
 
 
-def _ends(names: _Names, regions: tuple[list[Region], list[Region]]) -> tuple[Difference, ...]:
+def _ends(names: _Names, built: _AtUnits, drawn: _AtUnits) -> tuple[Difference, ...]:
     """Where what pipes end in differs between the two, in the pieces of pipe at the same units.
 
     A piece that joins units and is in one of both only is told as a connection. What nobody knows of an end
     contradicts nothing.
     """
-    built, drawn = (_by_ends(names, found, side) for side, found in enumerate(regions))
     found = []
     for units in sorted(built.keys() | drawn.keys(), key=lambda units: [tag_key(unit) for unit in units]):
         if not units or (len(units) > 1 and (units not in built or units not in drawn)):

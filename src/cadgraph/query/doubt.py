@@ -14,10 +14,8 @@ from cadgraph.query.against import Against, standing_against
 from cadgraph.query.network import Network
 
 __all__ = [
-    "DRAWN_FROM_DOUBT",
     "Doubt",
     "bare_nozzles",
-    "doubted_in_drawing",
     "few_ports",
     "likely_joints",
     "open_sides",
@@ -38,9 +36,6 @@ _BY_PLACE = (
 )
 
 _AS_DRAWN = "the plant that this drawing was written from goes on here, maybe: its own graph says how"
-
-DRAWN_FROM_DOUBT = "dexpi-doubtful"
-"""Code of the diagnostic that lists the nodes of a drawing at which the graph that it was written from had doubts."""
 
 About = Literal["feeds", "follows"]
 
@@ -90,14 +85,8 @@ def open_sides(network: Network, places: Collection[str], about: About = "follow
     against = [one for one in found if one.place is None or one.place not in joined]
     guessed = [place for place in places if place not in told and _is_gauge_by_place(network, place)]
     ends = [Doubt(place, network.name(place), _BY_PLACE.format(network.what(place))) for place in guessed]
-    ends += [Doubt(place, network.name(place), _AS_DRAWN) for place in places if place in doubted_in_drawing(network)]
+    ends += [Doubt(place, network.name(place), _AS_DRAWN) for place in places if place in network.doubted]
     return (*short, *bare, *ends, *unjoined, *(_stands_against(network, home, one, about) for one in against))
-
-
-def doubted_in_drawing(network: Network) -> frozenset[str]:
-    """Ids of the nodes of a drawing at which the graph that it was written from had doubts."""
-    notes = (note for note in network.graph.diagnostics if note.code == DRAWN_FROM_DOUBT)
-    return frozenset(name for note in notes for name in note.meshes)
 
 
 def few_ports(network: Network, place: str) -> tuple[int, int] | None:

@@ -32,7 +32,7 @@ _DUTIES: tuple[tuple[tuple[str, ...], Duty], ...] = (
 # A valve whose kind is open shuts off where kinds that do are together as sure as a kind must be to be stated (ours).
 _SURE = 0.9
 _HAND_OPERATORS = frozenset({"lever", "handwheel"})
-_OPERATORS = frozenset({"handwheel", "lever", "gearbox", "actuator"})
+_OPERATORS = _HAND_OPERATORS | {"gearbox", "actuator"}
 
 
 def duty_of(network: Network, place: str) -> Duty | None:

@@ -9,7 +9,7 @@ from cadgraph._io.text import tag_key
 from cadgraph.errors import Unconnected
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Terminal
-from cadgraph.query.doubt import Doubt, doubted_in_drawing, few_ports, open_sides
+from cadgraph.query.doubt import Doubt, few_ports, open_sides
 from cadgraph.query.duty import blocked_relief, duty_of, likely_kinds, suspect_of, worked_by_hand
 from cadgraph.query.lines import find_lines
 from cadgraph.query.network import Network
@@ -272,11 +272,10 @@ def _assumed(network: Network, section: Section) -> list[Doubt]:
         if place in section.needed and duty_of(network, place) == "unknown"
     ]
     reliefs = [place for place in section.nearest if _is_closed_relief(network, section, place)]
-    drawn = doubted_in_drawing(network)
     doubted = [
         Doubt(place, network.name(place), _AS_RELIEF)
         for place in reliefs
-        if worked_by_hand(network, place) or place in drawn
+        if worked_by_hand(network, place) or place in network.doubted
     ]
     return [*unknown, *doubted]
 

@@ -9,7 +9,10 @@ from cadgraph.model.graph import SceneGraph
 from cadgraph.model.pipework import Arc, Flow, Pipework, Place
 from cadgraph.model.records import Connected, Joint, Junction, System, Terminal, Unit
 
-__all__ = ["Arc", "Flow", "Network", "Place"]
+__all__ = ["DRAWN_FROM_DOUBT", "Arc", "Flow", "Network", "Place"]
+
+DRAWN_FROM_DOUBT = "dexpi-doubtful"
+"""Code of the diagnostic that lists the nodes of a drawing at which the graph that it was written from had doubts."""
 
 
 class Network(Pipework):
@@ -32,6 +35,12 @@ class Network(Pipework):
             UnknownNode: there is none, which is a ``ValueError``; the message names the nearest tags.
         """
         return self.graph.find(which, Unit, Junction, Terminal).id
+
+    @cached_property
+    def doubted(self) -> frozenset[str]:
+        """Ids of the nodes of a drawing at which the graph that it was written from had doubts."""
+        notes = (note for note in self.graph.diagnostics if note.code == DRAWN_FROM_DOUBT)
+        return frozenset(name for note in notes for name in note.meshes)
 
     @cached_property
     def open_joints(self) -> tuple[Joint, ...]:

@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Sequence
 from typing import Any
 
-from cadgraph.query.compare import Comparison, Missing
+from cadgraph.query.compare import Comparison, Difference, Missing
 from cadgraph.query.doubt import Doubt, bare_nozzles, few_ports, likely_joints, unconnected
 from cadgraph.query.isolate import PASSED_OVER, Isolation
 from cadgraph.query.lines import Line
@@ -321,20 +321,17 @@ def comparison_lines(found: Comparison, *, most: int = 20) -> list[str]:
         *_order_lines(found, most),
         f"directions     {len(found.directions)} contradict",
         *_listed([_way(way.at, way.to, way.plant, way.plan) for way in found.directions], most),
-        f"kinds          {len(found.kinds)} differ",
-        *_listed(
-            aligned([(", ".join(k.where), f"{k.plant} in the plant,", f"{k.plan} in the plan") for k in found.kinds]),
-            most,
-        ),
-        f"ends of pipes  {len(found.ends)} differ",
-        *_listed(
-            aligned([(", ".join(e.where), f"{e.plant} in the plant,", f"{e.plan} in the plan") for e in found.ends]),
-            most,
-        ),
+        *_difference_lines("kinds", found.kinds, most),
+        *_difference_lines("ends of pipes", found.ends, most),
         *(f"note: {remark}" for remark in found.skipped),
         "",
         found.verdict,
     ]
+
+
+def _difference_lines(what: str, found: Sequence[Difference], most: int) -> list[str]:
+    rows = [(", ".join(one.where), f"{one.plant} in the plant,", f"{one.plan} in the plan") for one in found]
+    return [f"{what:<15}{len(found)} differ", *_listed(aligned(rows), most)]
 
 
 def _unit_lines(found: Comparison, most: int) -> list[str]:

@@ -27,7 +27,7 @@ from cadgraph.model.records import (
     Terminal,
     Unit,
 )
-from cadgraph.query.doubt import DRAWN_FROM_DOUBT
+from cadgraph.query.network import DRAWN_FROM_DOUBT
 
 __all__ = ["read_dexpi"]
 
@@ -135,7 +135,7 @@ class _Reading:
                 nodes=(Site(id="site"), *self.nodes.values(), *self._systems(set(used), edges)),
                 edges=(*edges, *self._contains(set(used))),
                 diagnostics=tuple(
-                    Diagnostic(f"dexpi-{code}", _told(code, names)) for code, names in self.skipped.items() if names
+                    Diagnostic(f"dexpi-{code}", _told(code, names)) for code, names in self.skipped.items()
                 )
                 + self._doubts(),
             )
@@ -281,10 +281,11 @@ class _Reading:
         found: dict[str, list[tuple[float, str]]] = {}
         for item in self.root.iter("ProcessInstrumentationFunction"):
             for sensor in item.iter("ProcessSignalGeneratingFunction"):
-                distance = _number(_values(sensor, CUSTOM_SET).get("DistanceAlongSegment"))
-                self.somewhere.update([self._id(item)] if distance is None else [])
+                distance, name = _number(_values(sensor, CUSTOM_SET).get("DistanceAlongSegment")), self._id(item)
+                if distance is None:
+                    self.somewhere.add(name)
                 for link in sensor.findall("Association[@Type='is located in']"):
-                    found.setdefault(link.get("ItemID", ""), []).append((distance or 0.0, self._id(item)))
+                    found.setdefault(link.get("ItemID", ""), []).append((distance or 0.0, name))
         return {segment: sorted(rows) for segment, rows in found.items()}
 
     # Connections
@@ -301,8 +302,8 @@ class _Reading:
             # Which of several chains in one segment an instrument stands on, nobody says.
             nodes, ports, pipes = with_sensors(chain, sensors if number == 0 else [])
             if number == 0 and len(chain.pipes) > 1:
-                lost = [self.nodes[name] for _, name in sensors if name in self.somewhere]
-                self.skipped.setdefault("somewhere", []).extend(node.tag for node in lost if isinstance(node, Unit))
+                for node in [self.nodes[name] for _, name in sensors if name in self.somewhere]:
+                    self.skipped.setdefault("somewhere", []).append(node.tag if isinstance(node, Unit) else node.id)
             if not pipes:
                 self.skipped.setdefault("no-ends", []).append(segment.get("ID", "?"))
             for i, pipe in enumerate(pipes):

@@ -66,14 +66,12 @@ _VALVES = (
     ("plug", "PlugValve"), ("swing check", "SwingCheckValve"),
 )  # fmt: skip
 _CUSTOM_VALVES = (
-    ("check", "CustomCheckValve"), ("non-return", "CustomCheckValve"), ("relief", "CustomSafetyValveOrFitting"),
-    ("safety", "CustomSafetyValveOrFitting"),
+    ("check", "CustomCheckValve"), ("non-return", "CustomCheckValve"), ("safety", "CustomSafetyValveOrFitting"),
+    ("relief", "CustomSafetyValveOrFitting"),
 )  # fmt: skip
 _EQUIPMENT = (("exchanger", "CustomHeatExchanger"), ("filter", "CustomFilter"), ("strainer", "CustomFilter"))
 
 _VESSELS = frozenset({"Tank", "Vessel", "PressureVessel", "CustomVessel", "ProcessColumn", "Silo"})
-_TYPES_IN_WORDS = {"CustomCheckValve": ("check", "non-return"), "CustomSafetyValveOrFitting": ("safety", "relief")}
-"""Custom classes that say what a valve is, and the words that say the same."""
 _KINDS = {name: f"{word} valve" for word, name in _VALVES}
 
 
@@ -109,14 +107,12 @@ def unit_type_of(name: str, default: str) -> str:
 
 def kind_of(name: str, custom: str) -> str | None:
     """The kind that a class stands for, in our words."""
-    words = _TYPES_IN_WORDS.get(name)
-    if words is not None and not any(word in custom.casefold() for word in words):
+    words = [word for word, custom_name in _CUSTOM_VALVES if custom_name == name]
+    if words and not any(word in custom.casefold() for word in words):
         # A type of somebody's own, as "DN 50 PN 16", says less than the class.
         return f"{words[0]} valve"
     if custom:
         return None if custom in ("valve", "pump", "tank", "equipment") else custom
-    if name.endswith("Pump") and not name.startswith("Custom"):
-        return " ".join(re.findall("[A-Z][a-z]*", name)).lower()
-    if name.endswith("Valve") and name not in _KINDS and not name.startswith(("Custom", "Operated")):
+    if name.endswith(("Pump", "Valve")) and name not in _KINDS and not name.startswith(("Custom", "Operated")):
         return " ".join(re.findall("[A-Z][a-z]*", name)).lower()
     return "pressure vessel" if name == "PressureVessel" else _KINDS.get(name)

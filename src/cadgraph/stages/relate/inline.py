@@ -70,13 +70,14 @@ def recover_inline(piping: Piping, beliefs: Beliefs, likelihood: Curve) -> Pipin
     if not valves:
         return piping
     likely = beliefs.of_groups(valves)
+    others = _rivals(piping, beliefs)
     taken: set[int] = set()
     groups: list[Group] = []
     recovered = dict(piping.recovered)
     for piece in _pieces(piping, beliefs):
         share = max(float(likely[list(piece.parts)].mean()), _LEAST)
         said = f"the labeler gives it {share:.0%}", float(likelihood(np.log(share)))
-        other = _rival(piping, beliefs, piece)
+        other = float(others[list(piece.parts)].mean(axis=0).max())
         rival = None if other < max(_RIVAL, share) else float(likelihood(np.log(other))) - said[1]
         if _judged(piece, True, said, rival).sure < _SURE:
             continue
@@ -91,13 +92,12 @@ def recover_inline(piping: Piping, beliefs: Beliefs, likelihood: Curve) -> Pipin
     return _with_valves(piping, groups, taken, recovered) if groups else piping
 
 
-def _rival(piping: Piping, beliefs: Beliefs, piece: _Piece) -> float:
-    """How likely the labeler holds a piece for the likeliest thing that is no valve and may be shaped like one."""
-    vocabulary, parts = piping.given.vocabulary, list(piece.parts)
-    types = {kind for kind in vocabulary.unit_of_group.values() if kind != "valve"}
-    shares = [beliefs.of_name(name)[parts].mean() for name in _ALIKE]
-    shares += [beliefs.of_groups(vocabulary.groups_of(kind))[parts].mean() for kind in sorted(types)]
-    return float(max(shares))
+def _rivals(piping: Piping, beliefs: Beliefs) -> Floats:
+    """``(n_parts, n)`` how likely each part is of each thing that is no valve and may be shaped like one."""
+    vocabulary = piping.given.vocabulary
+    types = sorted({kind for kind in vocabulary.unit_of_group.values() if kind != "valve"})
+    shares = [*map(beliefs.of_name, _ALIKE), *(beliefs.of_groups(vocabulary.groups_of(kind)) for kind in types)]
+    return np.stack(shares, axis=1)
 
 
 def _judged(piece: _Piece, has_stem: bool, said: Term, rival: float | None) -> Recovered:
@@ -115,7 +115,8 @@ def _judged(piece: _Piece, has_stem: bool, said: Term, rival: float | None) -> R
     if has_stem:
         terms.append(("a stem on it leads nowhere", INLINE["stem"]))
     odds = float(np.exp(sum(odds for _, odds in terms)))
-    return Recovered(odds / (1 + odds + (0.0 if rival is None else odds * float(np.exp(rival)))), tell_terms(terms))
+    against = 1 if rival is None else 1 + odds * float(np.exp(rival))
+    return Recovered(odds / (against + odds), tell_terms(terms))
 
 
 def _with_valves(
