@@ -93,7 +93,7 @@ def correct(
     graph = SceneGraph.load(folder)
     edits = [
         *_labels(label or [], forget or [], this_only),
-        *_tags(folder, tag or [], keep_tags, device or []),
+        *_names(graph, folder, tag or [], device or [], keep_tags),
         *_units(graph, merge, split),
         *_joints(graph, join, cut),
         *(_flow(one) for one in flow or []),
@@ -158,16 +158,16 @@ def _labels(labels: list[str], forget: list[str], this_only: bool) -> list[dict[
     return [*said, *({"kind": "forget", "part": part} for part in forget)]
 
 
-def _tags(folder: Path, given: list[str], keep: bool, devices: list[str]) -> list[Mapping[str, Any]]:
+def _names(graph: SceneGraph, folder: Path, tags: list[str], devices: list[str], keep: bool) -> list[Mapping[str, Any]]:
     """What units are called, and what they are."""
     from cadgraph.session.correct import edits_to_keep_tags
 
     called: list[Mapping[str, Any]] = [
         dict(zip(("kind", "unit", kind), (kind, *_sides(kind, one)), strict=True))
-        for kind, texts in (("tag", given), ("device", devices))
+        for kind, texts in (("tag", tags), ("device", devices))
         for one in texts
     ]
-    return [*called, *(edits_to_keep_tags(folder) if keep else [])]
+    return [*called, *(edits_to_keep_tags(graph, folder) if keep else [])]
 
 
 def _units(graph: SceneGraph, merge: _Pair, split: list[str] | None) -> list[dict[str, Any]]:

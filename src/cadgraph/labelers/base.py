@@ -65,10 +65,10 @@ class Labeling:
             diagnostics: what is to be reported.
             sure: least confidence of a label that is sure: of all, or of each part.
         """
-        least = _each(threshold, len(answers))
+        least, least_sure = _each(threshold, len(answers)), _each(sure, len(answers))
         labels = tuple(
-            _marked(a, least_sure) if a is not None and a.confidence >= limit else None
-            for a, limit, least_sure in zip(answers, least, _each(sure, len(answers)), strict=True)
+            _marked(a, limit_of_sure) if a is not None and a.confidence >= limit else None
+            for a, limit, limit_of_sure in zip(answers, least, least_sure, strict=True)
         )
         guesses = tuple(
             (answer.guesses or (Guess(answer.group, answer.name, answer.confidence),))
@@ -76,7 +76,7 @@ class Labeling:
             else ()
             for answer, label in zip(answers, labels, strict=True)
         )
-        return cls(labels, guesses, tuple(answers), least, probabilities, tuple(diagnostics), _kept(sure))
+        return cls(labels, guesses, tuple(answers), least, probabilities, tuple(diagnostics), least_sure)
 
     @classmethod
     def empty(cls, n_parts: int) -> Labeling:
@@ -87,10 +87,6 @@ class Labeling:
 def _each(value: float | Sequence[float], n_parts: int) -> tuple[float, ...]:
     """A threshold of each part."""
     return tuple(value) if isinstance(value, Sequence) else (value,) * n_parts
-
-
-def _kept(value: float | Sequence[float]) -> float | tuple[float, ...]:
-    return tuple(value) if isinstance(value, Sequence) else value
 
 
 def _marked(label: Label, sure: float) -> Label:

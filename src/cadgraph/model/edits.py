@@ -203,7 +203,7 @@ def fold(edits: Iterable[Edit]) -> tuple[Edit, ...]:
     """
     kept: dict[tuple[object, ...], Edit] = {}
     for number, edit in enumerate(edits):
-        key = _about(edit, number)
+        key = about(edit, number)
         # What replaces another one is the later one, also where the order of both counts.
         kept.pop(key, None)
         if not isinstance(edit, Forget):
@@ -211,7 +211,7 @@ def fold(edits: Iterable[Edit]) -> tuple[Edit, ...]:
     return tuple(kept.values())
 
 
-def _about(edit: Edit, number: int) -> tuple[object, ...]:
+def about(edit: Edit, number: int) -> tuple[object, ...]:
     """What an edit is about: of two with the same key the later one counts."""
     match edit:
         case Correction():

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, fields
 from functools import cached_property
 from typing import Literal
@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from cadgraph.model.scene import Floats, Ints, Scene
 
-__all__ = ["Contacts", "Joint", "Link", "Network", "Opening", "Parts", "Place", "Properties", "UnitParts"]
+__all__ = ["Contacts", "Joint", "Link", "Network", "Opening", "Parts", "Place", "Properties", "UnitParts", "owners_of"]
 
 Bools = npt.NDArray[np.bool_]
 
@@ -252,3 +252,8 @@ class Network:
     links: tuple[Link, ...] = ()
     systems: tuple[tuple[int, ...], ...] = ()
     joints: tuple[Joint, ...] = ()
+
+
+def owners_of(units: Iterable[UnitParts]) -> dict[int, int]:
+    """The number of the unit that each part is in; parts without one are left out."""
+    return {part: number for number, unit in enumerate(units) for part in unit.parts}

@@ -136,26 +136,25 @@ def apply_edits(
     return _changed(before, target, lambda session: session.apply(edits, who=who, why=why), scene, report, progress)
 
 
-def edits_to_keep_tags(folder: str | Path) -> list[Mapping[str, Any]]:
+def edits_to_keep_tags(graph: SceneGraph, folder: str | Path) -> list[Mapping[str, Any]]:
     """The edits by which units keep the tags that they have, whatever is corrected later; see ``apply_edits``.
 
     Tags that no plant gave are numbers in the order of the parts: where a correction takes one unit away, those after
     it move up.
 
     Args:
-        folder: what ``cadgraph build`` wrote.
+        graph: finished.
+        folder: that it lies in.
 
     Raises:
         ValueError: all units keep their tags already, or there is none.
-        FormatError: the folder holds no graph.
     """
-    graph, target = _opened(folder)
-    given = {edit.tag for edit in read_history(target).in_force if isinstance(edit, Tag)}
+    given = {edit.tag for edit in read_history(_home(folder)).in_force if isinstance(edit, Tag)}
     edits: list[Mapping[str, Any]] = [
         {"kind": "tag", "unit": unit.id, "tag": unit.tag} for unit in graph.units() if unit.tag not in given
     ]
     if not edits:
-        raise ValueError(f"{target}: no unit whose tag could change: each that there is keeps it by a correction")
+        raise ValueError(f"{folder}: no unit whose tag could change: each that there is keeps it by a correction")
     return edits
 
 
@@ -193,7 +192,12 @@ def step_back_or_forth(
 
 
 def _opened(folder: str | Path) -> tuple[SceneGraph, Path]:
-    return SceneGraph.load(folder), Path(folder) if Path(folder).is_dir() else Path(folder).parent
+    return SceneGraph.load(folder), _home(folder)
+
+
+def _home(folder: str | Path) -> Path:
+    """The folder of a graph, which may be named by its file."""
+    return Path(folder) if Path(folder).is_dir() else Path(folder).parent
 
 
 def _changed(

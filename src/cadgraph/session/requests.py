@@ -27,6 +27,7 @@ from cadgraph.model.edits import (
     Merge,
     Split,
     Tag,
+    about,
     check_tag,
 )
 from cadgraph.model.given_labels import split_label
@@ -384,34 +385,21 @@ class Requests:
 
 def _refuse_two_answers(done: Sequence[tuple[Edit, str]]) -> None:
     """Refuses that one correction says two things of the same: whichever came last would win without a word."""
-    said: dict[tuple[str, object], tuple[object, str]] = {}
-    for edit, words in done:
-        about = _about(edit)
-        if about is None:
-            continue
-        subject, value = about
+    said: dict[tuple[object, ...], tuple[object, str]] = {}
+    for number, (edit, words) in enumerate(done):
+        subject, value = _what_is_said(edit, number)
         before = said.setdefault(subject, (value, words))
         if before[0] != value:
             raise ValueError(f"{before[1]}, and {words}: both in one correction; say one of them")
 
 
-def _about(edit: Edit) -> tuple[tuple[str, object], object] | None:
-    """What an edit gives a value to, and the value; None of one that gives none."""
-    if isinstance(edit, Correction):
-        return ("label", edit.mesh), (edit.group, edit.name, edit.this_only)
-    if isinstance(edit, Forget):
-        return ("label", edit.part.mesh), None
-    if isinstance(edit, Tag):
-        return ("tag", edit.parts[0].mesh), edit.tag
-    if isinstance(edit, Device):
-        return ("device", edit.parts[0].mesh), edit.device
-    if isinstance(edit, Ground):
-        return ("ground", edit.mesh.mesh), edit.ground
+def _what_is_said(edit: Edit, number: int) -> tuple[tuple[object, ...], object]:
+    """What an edit is about, and what it says of it."""
     if isinstance(edit, Direction):
         turned = edit.ends[0] > edit.ends[1]
-        onward = {"forward": not turned, "backward": turned}.get(edit.flow)
-        return ("direction", frozenset(edit.ends)), onward
-    return None
+        return ("direction", frozenset(edit.ends)), {"forward": not turned, "backward": turned}.get(edit.flow)
+    # A joint that is to be made is none yet, and one to be cut is: no two say the opposite.
+    return about(edit, number), type(edit) if isinstance(edit, Join | Cut) else edit
 
 
 def _together(words: Sequence[str]) -> list[str]:

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from cadgraph._io.text import natural_key
 from cadgraph.geometry.components import connected_sets
 from cadgraph.model.labels import Label
-from cadgraph.model.parts import Contacts, UnitParts
+from cadgraph.model.parts import Contacts, UnitParts, owners_of
 from cadgraph.model.scene import Ints
 from cadgraph.model.vocabulary import Vocabulary
 
@@ -123,7 +123,7 @@ def _territories(
     units: Sequence[UnitParts], neighbors: Mapping[int, Sequence[int]], connector: Sequence[bool]
 ) -> dict[int, int]:
     """The unit that each part belongs to after all have grown."""
-    owner = {part: i for i, unit in enumerate(units) for part in unit.parts}
+    owner = owners_of(units)
     fronts = [list(unit.parts) for unit in units]
     while any(fronts):
         for i, front in enumerate(fronts):

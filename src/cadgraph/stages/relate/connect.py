@@ -10,7 +10,7 @@ import numpy as np
 from cadgraph.geometry.line.centreline import Centreline
 from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.labels import Label
-from cadgraph.model.parts import Joint, Network, Parts, UnitParts
+from cadgraph.model.parts import Joint, Network, Parts, UnitParts, owners_of
 from cadgraph.stages.relate.algorithm import find_units, number_units
 from cadgraph.stages.relate.attach import flat_contacts
 from cadgraph.stages.relate.contract import Closed, simplify
@@ -135,14 +135,9 @@ def _joints(piping: Piping, units: Sequence[UnitParts], drawing: Drawing) -> tup
 
 def _unjoined(piping: Piping, network: Network) -> list[Unmet]:
     """The joints that the user made and that can't be."""
-    owner = _owners(network.units)
+    owner = owners_of(network.units)
     usable = {*piping.lines, *piping.lineless, *piping.members, *owner}
     return unmet_joints(piping.given.edits, network.joints, piping.given.parts, usable, owner)
-
-
-def _owners(units: Sequence[UnitParts]) -> dict[int, int]:
-    """The number of the unit that each part is in."""
-    return {part: number for number, unit in enumerate(units) for part in unit.parts}
 
 
 def _decide(piping: Piping, groups: Sequence[Group]) -> tuple[list[Group], list[Group]]:
@@ -170,7 +165,7 @@ def _draw(piping: Piping, units: Sequence[UnitParts]) -> Drawing:
     given = piping.given
     flanged = flat_contacts(given.parts, given.contacts, _between(piping, units), given.config.cluster.eps)
     where = {pair: middle for pair, (middle, _) in flanged.items() if pair not in given.edits.cut}
-    owner = {part: -1 - part for part in piping.lineless} | _owners(units)
+    owner = {part: -1 - part for part in piping.lineless} | owners_of(units)
     bridged = bridge_solids(given.edits, given.parts, piping.lines, owner)
     where = {pair: middle for pair, middle in where.items() if pair not in bridged}
 
@@ -182,7 +177,7 @@ def _draw(piping: Piping, units: Sequence[UnitParts]) -> Drawing:
 
 def _between(piping: Piping, units: Sequence[UnitParts]) -> list[tuple[int, int]]:
     """Pairs of solids in contact that are not of one unit."""
-    owner = {part: -1 - part for part in piping.lineless} | _owners(units)
+    owner = {part: -1 - part for part in piping.lineless} | owners_of(units)
     return [(a, b) for a, b in piping.given.contacts.plain_pairs if a in owner and b in owner and owner[a] != owner[b]]
 
 
@@ -191,7 +186,7 @@ def _contract(piping: Piping, units: Sequence[UnitParts], drawing: Drawing, name
     given = piping.given
     tapped = {number for number, unit in enumerate(units) if unit.unit_type in ("gauge", "valve")}
     net = simplify(drawing, tapped, _closed(piping, drawing, names), len(units), given.config.relate.leg)
-    carried = {*piping.lines, *piping.lineless, *_owners(units), *piping.jackets}
+    carried = {*piping.lines, *piping.lineless, *owners_of(units), *piping.jackets}
     return make_network(
         net,
         drawing,

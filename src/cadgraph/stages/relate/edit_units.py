@@ -6,9 +6,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from cadgraph.model.names import loose_tag
-from cadgraph.model.parts import Network, UnitParts
+from cadgraph.model.parts import Network, UnitParts, owners_of
 from cadgraph.model.scene import Floats
-from cadgraph.stages.relate.edits import DeviceEdit, NetworkEdits, TagEdit, UnitEdit, Unmet
+from cadgraph.stages.relate.edits import NameEdit, NetworkEdits, UnitEdit, Unmet
 from cadgraph.stages.relate.piping import Group, Piping
 from cadgraph.stages.relate.stated_names import Named, renumbered
 
@@ -112,7 +112,7 @@ def tag_as_corrected(named: Named, edits: NetworkEdits) -> tuple[Named, list[Unm
     if not edits.tags:
         return named, []
     wanted, unmet = _wanted(named.units, edits.tags)
-    tags = renumbered(named.units, [wanted[k].tag if k in wanted else None for k in range(len(named.units))])
+    tags = renumbered(named.units, [wanted[k].name if k in wanted else None for k in range(len(named.units))])
     units = tuple(replace(unit, tag=tag) for unit, tag in zip(named.units, tags, strict=True))
     return replace(named, units=units), unmet
 
@@ -129,34 +129,34 @@ def call_as_corrected(network: Network, edits: NetworkEdits) -> tuple[Network, l
     """
     if not edits.devices:
         return network, []
-    owner = {part: k for k, unit in enumerate(network.units) for part in unit.parts}
+    owner = owners_of(network.units)
     units, unmet = list(network.units), list[Unmet]()
     for edit in edits.devices:
         number = _unit_of(edit, owner)
         if number is None:
             unmet.append((edit.number, _NO_UNIT))
         else:
-            units[number] = replace(units[number], kind=edit.device, kind_guesses=())
+            units[number] = replace(units[number], kind=edit.name, kind_guesses=())
     return replace(network, units=tuple(units)), unmet
 
 
-def _wanted(units: Sequence[UnitParts], edits: Sequence[TagEdit]) -> tuple[dict[int, TagEdit], list[Unmet]]:
+def _wanted(units: Sequence[UnitParts], edits: Sequence[NameEdit]) -> tuple[dict[int, NameEdit], list[Unmet]]:
     """The tag of each unit that a user gave one, each tag once; and the edits that don't fit."""
-    owner = {part: k for k, unit in enumerate(units) for part in unit.parts}
+    owner = owners_of(units)
     unmet: list[Unmet] = []
-    wanted: dict[int, TagEdit] = {}
+    wanted: dict[int, NameEdit] = {}
     for edit in edits:
         unit = _unit_of(edit, owner)
         if unit is None:
             unmet.append((edit.number, _NO_UNIT))
             continue
-        for other in [k for k, one in wanted.items() if k != unit and _is_same(one.tag, edit.tag)]:
+        for other in [k for k, one in wanted.items() if k != unit and _is_same(one.name, edit.name)]:
             unmet.append((wanted.pop(other).number, "another unit is called so by a later correction"))
         wanted[unit] = edit
     return wanted, unmet
 
 
-def _unit_of(edit: TagEdit | DeviceEdit, owner: Mapping[int, int]) -> int | None:
+def _unit_of(edit: NameEdit, owner: Mapping[int, int]) -> int | None:
     """The unit that most of an edit's parts are in, of several the one of its first part."""
     homes = [owner[part] for part in edit.parts if part in owner]
     return max(homes, key=lambda k: (homes.count(k), -homes.index(k)), default=None)

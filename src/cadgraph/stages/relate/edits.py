@@ -8,11 +8,11 @@ from functools import cached_property
 
 import numpy as np
 
-from cadgraph.model.anchors import Anchored
+from cadgraph.model.anchors import Anchor, Anchored
 from cadgraph.model.edits import Cut, Device, Direction, Edit, Flow, Join, Merge, Split, Tag
 from cadgraph.model.scene import Floats
 
-__all__ = ["BY_USER", "CUT", "FlowEdit", "JointEdit", "NetworkEdits", "TagEdit", "UnitEdit", "Unmet", "place_edits"]
+__all__ = ["BY_USER", "CUT", "FlowEdit", "JointEdit", "NameEdit", "NetworkEdits", "UnitEdit", "Unmet", "place_edits"]
 
 BY_USER, CUT = "joined by a user", "cut by a user"
 """The reasons of joints that a user made, or cut."""
@@ -78,33 +78,18 @@ class FlowEdit:
 
 
 @dataclass(frozen=True)
-class TagEdit:
-    """The tag of a unit.
+class NameEdit:
+    """What a unit is called: its tag, or its kind of device.
 
     Args:
         number: of the edit.
         parts: of the unit.
-        tag: its name.
+        name: the word for it.
     """
 
     number: int
     parts: tuple[int, ...]
-    tag: str
-
-
-@dataclass(frozen=True)
-class DeviceEdit:
-    """What kind of device a unit is.
-
-    Args:
-        number: of the edit.
-        parts: of the unit.
-        device: its kind in words.
-    """
-
-    number: int
-    parts: tuple[int, ...]
-    device: str
+    name: str
 
 
 @dataclass(frozen=True, eq=False)
@@ -123,8 +108,8 @@ class NetworkEdits:
     units: tuple[UnitEdit, ...] = ()
     joints: tuple[JointEdit, ...] = ()
     flows: tuple[FlowEdit, ...] = ()
-    tags: tuple[TagEdit, ...] = ()
-    devices: tuple[DeviceEdit, ...] = ()
+    tags: tuple[NameEdit, ...] = ()
+    devices: tuple[NameEdit, ...] = ()
     unmet: tuple[Unmet, ...] = ()
 
     @cached_property
@@ -147,8 +132,8 @@ class _Placed:
     units: list[UnitEdit] = field(default_factory=list)
     joints: list[JointEdit] = field(default_factory=list)
     flows: list[FlowEdit] = field(default_factory=list)
-    tags: list[TagEdit] = field(default_factory=list)
-    devices: list[DeviceEdit] = field(default_factory=list)
+    tags: list[NameEdit] = field(default_factory=list)
+    devices: list[NameEdit] = field(default_factory=list)
 
     def place(self, number: int, edit: Edit) -> str | None:
         """Takes an edit in; returns why it can't be."""
@@ -160,15 +145,16 @@ class _Placed:
             case Direction():
                 return self._place_flow(number, edit)
             case Tag():
-                found = self.parts.find_all(edit.parts)
-                self.tags += [TagEdit(number, tuple(found), edit.tag)] if found else []
-                return None if found else _GONE.format("all", len(edit.parts))
+                return self._place_name(number, edit.parts, edit.tag, self.tags)
             case Device():
-                found = self.parts.find_all(edit.parts)
-                self.devices += [DeviceEdit(number, tuple(found), edit.device)] if found else []
-                return None if found else _GONE.format("all", len(edit.parts))
+                return self._place_name(number, edit.parts, edit.device, self.devices)
             case _:
                 return None
+
+    def _place_name(self, number: int, parts: Sequence[Anchor], name: str, names: list[NameEdit]) -> str | None:
+        found = self.parts.find_all(parts)
+        names += [NameEdit(number, tuple(found), name)] if found else []
+        return None if found else _GONE.format("all", len(parts))
 
     def _place_unit(self, number: int, edit: Merge | Split) -> str | None:
         found = self.parts.find_all(edit.parts)

@@ -10,7 +10,7 @@ import numpy as np
 
 from cadgraph.geometry.components import first_of_component
 from cadgraph.geometry.line.centreline import Branch, Centreline
-from cadgraph.model.parts import Opening, UnitParts
+from cadgraph.model.parts import Opening, UnitParts, owners_of
 from cadgraph.model.scene import Floats
 from cadgraph.stages.relate.attach import Attachments, Side
 from cadgraph.stages.relate.line import is_disc
@@ -102,7 +102,7 @@ def draw_network(
         sure: how sure it is that a part is a connector.
         bridged: pairs of solids that a user joined across a gap, and the two ends of it, ``(2, 3)`` [m].
     """
-    owner = {part: number for number, unit in enumerate(units) for part in unit.parts}
+    owner = owners_of(units)
     draft = _Draft(lines, found, owner, len(units), openings=[[] for _ in units])
     draft.node_of_solid = {part: draft.new() for part in solids if part not in owner}
     for row, part in enumerate(found.ends.part.tolist()):

@@ -7,7 +7,7 @@ from collections.abc import Collection, Iterator, Sequence
 import numpy as np
 
 from cadgraph.model.diagnostic import Diagnostic
-from cadgraph.model.parts import Network, Parts, UnitParts
+from cadgraph.model.parts import Network, Parts, UnitParts, owners_of
 from cadgraph.model.ports import least_ports, port_word
 from cadgraph.model.scene import Floats
 from cadgraph.stages.relate.edits import CUT
@@ -61,7 +61,7 @@ def _least(unit: UnitParts) -> int:
 
 def _hung_on(piping: Piping, network: Network) -> frozenset[int]:
     """Gauges that touch another unit: these sit on it, without any line."""
-    owner = {part: number for number, unit in enumerate(network.units) for part in unit.parts}
+    owner = owners_of(network.units)
     pairs = [(owner.get(a), owner.get(b)) for a, b in piping.given.contacts.plain_pairs]
     return frozenset(
         unit
@@ -173,7 +173,7 @@ def _joined_pairs(piping: Piping) -> Iterator[tuple[int, int]]:
 
 def _units_touching(piping: Piping, network: Network, short: Collection[int]) -> Iterator[Diagnostic]:
     """Units that touch and are not joined though one of them lacks a line."""
-    owner = {part: number for number, unit in enumerate(network.units) for part in unit.parts}
+    owner = owners_of(network.units)
     # A pair that is joined, or told already, is not told.
     shut = {(link.source, link.target) for link in network.links}
     contacts, scene = piping.given.contacts, piping.given.parts.scene

@@ -280,8 +280,8 @@ class Discs(_Fitting, name="expansion joint/discs", label="expansion joint", bun
                 solids.append(disc(wide, z - thick, z + thick, style) if self.form == "discs" else bead)
         rod, rim = 0.02 * t.flange.outer + 0.003, 0.45 * t.flange.outer
         for turn in (2 * np.pi * k / self.rods for k in range(self.rods)):
-            place = (0.0, rim * float(np.cos(turn)), rim * float(np.sin(turn)))
-            solids.append(moved(disc(rod, 0.0, length, style), at(place[2], place[1])))
+            x, y = rim * float(np.sin(turn)), rim * float(np.cos(turn))
+            solids.append(moved(disc(rod, 0.0, length, style), at(x, y)))
         t.add("expansion joint", *map(lying, solids), *self.plates.solids(t, length), of="pipe")
         return t.model(length)
 

@@ -15,11 +15,12 @@ from cadplants.families.primitive.shape import (
     disc,
     lying,
     plated,
+    rods,
     torus_piece,
 )
 from cadplants.model.family import Family, Model
 from cadplants.model.standards import sizes_between
-from cadplants.solids.mesh_ops import merge, moved
+from cadplants.solids.mesh_ops import Solid, merge, moved
 from cadplants.solids.primitives import box, cylinder, ring
 from cadplants.solids.transforms import at, spun
 
@@ -232,28 +233,30 @@ class MeterCylinder(
         wide = t.pipe.radius * self.wide
         housing = max(wide, t.pipe.radius * self.housing)
         top = housing + 1.6 * size
-        head = box((2 * size, 1.5 * size, 1.6 * size), (0, 0, top))
-        if self.turn == 1.0:
-            head = disc(size, top - 0.8 * size, top + 0.8 * size, style) if self.round_ else head
-        elif self.round_:
-            head = moved(lying(disc(0.8 * size, -size, size, style), 0, 0, top), spun("z", self.turn * np.pi))
         solids = [lying(disc(wide, 0.0, length, style)), *self.plates.solids(t, length)]
         if self.housed:
             low = 0.5 * length * (1 - self.share)
             solids.append(lying(disc(housing, low, length - low, style)))
         t.add("flow meter", *solids)
-        t.at(length / 2).add("transmitter", disc(0.35 * size, 0.0, housing + size, style), head, of="gauge")
+        neck = disc(0.35 * size, 0.0, housing + size, style)
+        t.at(length / 2).add("transmitter", neck, self._head(t, top), of="gauge")
         return t.model(length, kind="flow meter")
 
+    def _head(self, t: Table, z: float) -> Solid:
+        """A box, or a cylinder upright or level, about a height [m]."""
+        size = self.size
+        if not self.round_:
+            return box((2 * size, 1.5 * size, 1.6 * size), (0, 0, z))
+        if self.turn == 1.0:
+            return disc(size, z - 0.8 * size, z + 0.8 * size, t.style)
+        return moved(lying(disc(0.8 * size, -size, size, t.style), 0, 0, z), spun("z", self.turn * np.pi))
 
-class CrossedSight(
-    _Instrument,
-    name="sight glass/crossed cylinders",
-    place="inline",
-    label="sight glass",
-    bundle="sight glass",
-    weight=0.8,
-):
+
+class _Sight(_Instrument, place="inline", label="sight glass", bundle="sight glass", weight=0.8):
+    """A sight glass of primitives."""
+
+
+class CrossedSight(_Sight, name="sight glass/crossed cylinders"):
     """A cylinder along the line with a short one across."""
 
     length: float = between(0.8, 1.3, "face to face / outside of the flange")
@@ -268,14 +271,7 @@ class CrossedSight(
         return t.model(length, kind="sight glass")
 
 
-class RoddedSight(
-    _Instrument,
-    name="sight glass/cylinder between rods",
-    place="inline",
-    label="sight glass",
-    bundle="sight glass",
-    weight=0.8,
-):
+class RoddedSight(_Sight, name="sight glass/cylinder between rods"):
     """A cylinder of glass between two thick rings, held by rods all round."""
 
     length: float = between(0.8, 1.6, "face to face / outside of the flange")
@@ -292,9 +288,7 @@ class RoddedSight(
         solids += [disc(ring, z, z + thick, style) for z in (low, length - low - thick)]
         if low:
             solids.append(disc(r, 0.0, length, style))
-        for turn in (2 * np.pi * (k + 0.5) / self.rods for k in range(self.rods)):
-            rod = disc(0.07 * ring + 0.002, low, length - low, style)
-            solids.append(moved(rod, at(0.86 * ring * float(np.cos(turn)), 0.86 * ring * float(np.sin(turn)))))
+        solids += rods(self.rods, 0.86 * ring, 0.07 * ring + 0.002, low, length - low, style)
         t.add("sight glass", merge([lying(one) for one in solids]), of="gauge")
         return t.model(length, kind="sight glass")
 

@@ -1,4 +1,4 @@
-"""Pumps, tanks and equipment of primitives: boxes, cylinders, cones and dishes with nozzles."""
+"""Tanks and equipment of primitives: boxes, cylinders, cones and dishes with nozzles."""
 
 from __future__ import annotations
 

@@ -7,7 +7,7 @@ import numpy as np
 from cadplants.builder.device import Device, families_of
 from cadplants.builder.params import Params, among, between, chance, nested
 from cadplants.builder.table import Table
-from cadplants.families.primitive.shape import Plates, Snout, cone, disc, dish, lying, plated, snout_of
+from cadplants.families.primitive.shape import Plates, Snout, cone, disc, dish, lying, plated, rods, snout_of
 from cadplants.model.family import Family, Model, Port
 from cadplants.model.standards import PIPES, sizes_between, smaller
 from cadplants.solids.mesh_ops import Solid, moved
@@ -159,9 +159,7 @@ class UprightInLine(_Pump, name="pump/upright stages", sizes=sizes_between(15, 1
         casing = [plate, disc(1.05 * wide, 0.02, foot, style), disc(wide, foot, top, style)]
         for side in (1.0, -1.0):
             casing.append(moved(self.snout.solid(0.0, reach, style), at(0, 0, axis) @ spun("y", side * np.pi / 2)))
-        for turn in (2 * np.pi * (k + 0.5) / self.rods for k in range(self.rods)):
-            rod = disc(0.08 * wide, foot, top, style)
-            casing.append(moved(rod, at(1.1 * wide * float(np.cos(turn)), 1.1 * wide * float(np.sin(turn)))))
+        casing += rods(self.rods, 1.1 * wide, 0.08 * wide, foot, top, style)
         radius = wide * self.radius
         lantern = disc(0.8 * wide, top, top + 0.6 * wide, style)
         motor = [moved(one, at(0, 0, top + 0.6 * wide)) for one in self.motor.solids(radius, radius * self.long, style)]

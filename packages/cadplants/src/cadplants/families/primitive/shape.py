@@ -26,6 +26,7 @@ __all__ = [
     "lying",
     "pipe_piece",
     "plated",
+    "rods",
     "sleeve",
     "snout_of",
     "spoked",
@@ -128,6 +129,13 @@ class Snout(Params):
 def snout_of(dn: Callable[[Any], int], about: str) -> Snout:
     """A nozzle of a nominal size [mm] that follows from the other parameters; a parameter."""
     return nested(Snout, about, fixed=lambda p: {"dn": dn(p)})
+
+
+def rods(count: int, far: float, radius: float, low: float, high: float, style: ModelingStyle) -> list[Solid]:
+    """Round bars along z at equal steps about it, ``far`` from it, the first half a step from x [m]."""
+    bar = disc(radius, low, high, style)
+    turns = [2 * np.pi * (k + 0.5) / count for k in range(count)]
+    return [moved(bar, at(far * float(np.cos(turn)), far * float(np.sin(turn)))) for turn in turns]
 
 
 def spoked(radius: float, thick: float, count: int, style: ModelingStyle) -> list[Solid]:
