@@ -110,3 +110,14 @@ def test_a_long_round_comes_in_pages_that_lose_nothing():
     numbers = [int(line.split(".")[0]) for line in pages if line[0].isdigit()]
     assert page > 1
     assert numbers == list(range(1, len(answer.values["steps"]) + 1))
+
+
+def test_a_round_whose_step_names_another_unit_than_it_is_at_is_wrong(folder, capsys):
+    written = json.loads(run(capsys, "plan", folder, "close V-001", "--json")[1])
+    step = next(step for step in written["steps"] if step["do"] == "close")
+    step["name"] = "V-002"
+    file = folder / "renamed.json"
+    file.write_text(json.dumps(written), encoding="utf-8")
+    code, out, _ = run(capsys, "plan", folder, "--check", file)
+    assert code == 1
+    assert "it names V-002, but is at V-001" in out

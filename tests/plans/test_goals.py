@@ -44,14 +44,15 @@ def test_a_tag_that_would_spoil_the_words_is_written_as_its_id():
     ("text", "says"),
     [
         ("", "no goals"),
-        ("shut V-001", "'shut' is no verb; begin with read, close or open"),
+        ("shut V-001", "'shut' is no verb; begin with read, close, open, stop or start"),
         ("close", "close what"),
         ("close V-021", "did you mean V-002, V-001"),
         ("close G-001", "G-001 is a pressure gauge, and only a valve can be closed"),
         ("read V-001", "V-001 is a gate valve, and only a gauge can be read"),
         ("close place-001", "place-001 is a place, and only a valve can be closed"),
         ("close V-001, open V-001", "put a semicolon between"),
-        ("close V-001; close V-001", "closed twice"),
+        ("close V-001; close V-001", "closed twice without being opened between"),
+        ("stop V-001", "V-001 is a gate valve, and only a pump can be stopped"),
     ],
 )
 def test_goals_that_make_no_sense_are_refused_with_the_remedy(text, says):

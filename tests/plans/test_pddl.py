@@ -6,7 +6,7 @@ from cadgraph.plans import make_round, parse_goals
 from cadgraph.plans.pddl import domain_text, plan_text, problem_text
 from cadgraph.plans.round import survey
 from gallery import gallery
-from networks import network, unit
+from networks import network, pumping, unit
 
 GRAPH = gallery()
 GOALS = "read G-001, G-003, close V-003; close V-002, read G-002; open V-002"
@@ -68,7 +68,7 @@ class Planner:
         bound = dict(zip(parameters, values, strict=True))
         for parameter, value in bound.items():
             kind = self.types[value]
-            assert kinds[parameter] == kind or (kinds[parameter] == "unit" and kind in ("gauge", "valve"))
+            assert kinds[parameter] == kind or (kinds[parameter] == "unit" and kind in ("gauge", "valve", "pump"))
         for fact in action[action.index(":precondition") + 1][1:]:
             assert tuple(bound.get(word, word) for word in fact) in self.facts, (name, values, fact)
         added = []
@@ -95,6 +95,15 @@ def test_a_round_solves_its_problem_and_costs_its_length(start):
     assert planner.solves(plan)
     assert planner.cost == pytest.approx(1000 * made.length, abs=len(made.steps))
     assert f"; cost = {planner.cost}" in plan
+
+
+def test_a_round_that_stops_a_pump_and_starts_another_solves_its_problem():
+    graph = pumping()
+    known, made = planned("stop P-001; close V-002, V-005; open V-003; start P-002", graph)
+    problem = problem_text(known, made)
+    assert "(runs p-001)" in problem
+    assert "(is-stopped p-002)" in problem
+    assert Planner(domain_text(), problem).solves(plan_text(known, made))
 
 
 def test_a_plan_that_breaks_the_order_does_not_solve_it():

@@ -147,6 +147,30 @@ def test_a_valve_that_is_opened_first_is_taken_for_shut_before():
     assert "G-001" in next(step.change for step in planned.steps if step.goal).fed_again
 
 
+def test_a_pump_that_was_stopped_before_comes_to_no_harm():
+    _, harmed = made("close V-002", pumping())
+    assert any("P-001 would run dry" in text for step in harmed.steps for text in step.change.harm)
+    _, planned = made("stop P-001; close V-002", pumping())
+    assert [(step.do, step.change.harm) for step in planned.steps if step.goal] == [("stop", ()), ("close", ())]
+    assert not any("run dry" in note for step in planned.steps for note in step.change.notes)
+    assert "all other valves are open and all other pumps run" in planned.assumptions
+    assert "pumps are stopped and started where they stand; one that is switched elsewhere takes no walk" in (
+        planned.assumptions
+    )
+
+
+def test_starting_a_pump_without_a_supply_is_told_as_harm():
+    known, planned = made("close V-002; start P-001", pumping())
+    assert "! start P-001: P-001 would run dry" in doubt_lines(known, planned)
+    assert "P-001 is stopped before the round" in planned.assumptions
+
+
+def test_starting_a_pump_against_a_closed_valve_is_told_as_harm():
+    known, planned = made("close V-005; start P-001; open V-005", pumping())
+    assert any(line.startswith("! start P-001: P-001 would pump against") for line in doubt_lines(known, planned))
+    assert [step.do for step in planned.steps if step.goal] == ["close", "start", "open"]
+
+
 def test_a_valve_without_a_line_changes_what_nobody_knows():
     known, planned = made("close V-004")
     assert planned.steps[-1].change.notes == ("no line was found at V-004: what turning it changes is not known",)

@@ -52,6 +52,7 @@ def test_a_round_of_bare_steps_keeps_them_too():
         ((*MOVES, Move("walk", "unit-V-777")), "nothing to walk to is called 'unit-V-777' here"),
         ((*MOVES, Move("climb", "place-002")), "no way up is called 'place-002'"),
         ((*MOVES, Move("read", "nothing")), "no unit is called 'nothing'"),
+        ((*MOVES, Move("walk", "unit-V-001", named="V-002")), "it names V-002, but is at V-001"),
         ((Move("walk", "unit-G-001", length=0.5), *MOVES[1:]), "it says 0.50 m to G-001, but that takes 2.00 m"),
     ],
 )

@@ -43,7 +43,7 @@ class Planned:
 
 def plan(
     plant: Plant,
-    goals: Annotated[str, "'read G-003, G-007; close V-002'; ';' orders"],
+    goals: Annotated[str, "'read G-003; stop P-001; close V-002'; ';' orders"],
     start: Annotated[str, "unit to begin and end at"] = "",
     page: int = 1,
 ) -> Answer:
@@ -51,7 +51,7 @@ def plan(
 
     Args:
         plant: to go round.
-        goals: what to read, close and open; what stands before a semicolon is done before what stands behind it.
+        goals: what to read, close, open, stop and start; what stands before a semicolon is done before the rest.
         start: tag or id of the unit where it begins and ends; anywhere on the ground if empty.
         page: counted from 1.
 

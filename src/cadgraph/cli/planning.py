@@ -38,10 +38,11 @@ def plan(
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print as JSON.")] = False,
 ) -> None:
-    """Plan a round: what to read, close and open, in the order that is shortest, and what each step needs and changes.
+    """Plan a round: what to read, turn and stop, in the order that is shortest, and what each step needs and changes.
 
-    What stands before a semicolon is done before what stands behind it; what commas divide is done in any order. The
-    round says where to walk, climb and stand, what takes a ladder or lift, what closing cuts off, and what isn't known.
+    Gauges are read, valves closed and opened, pumps stopped and started. What stands before a semicolon is done before
+    what stands behind it; what commas divide is done in any order. The round says where to walk, climb and stand, what
+    takes a ladder or lift, what closing cuts off, and what isn't known.
 
     With --check: plays a round through that anybody made, a file with "goals" and "steps" (each "do" and "at"), and
     lists the rules that it breaks; ends with 1 if there are any.

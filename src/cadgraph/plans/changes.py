@@ -1,16 +1,16 @@
-"""What closing and opening valves changes in the network, step by step."""
+"""What closing and opening valves, stopping and starting pumps changes in the network, step by step."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from cadgraph.model.records import Terminal
-from cadgraph.plans.goals import Goal
+from cadgraph.plans.goals import OFF, Goal
 from cadgraph.query.network import Network
-from cadgraph.query.what_if import Consequence, WhatIf, what_if
+from cadgraph.query.what_if import ALL_RUN, Consequence, WhatIf, what_if, would_run_dry
 
-__all__ = ["Change", "assumptions_of", "changes_of", "shut_before"]
+__all__ = ["Change", "assumptions_of", "changes_of", "off_before"]
 
 
 @dataclass(frozen=True)
@@ -32,13 +32,15 @@ class Change:
     harm: tuple[str, ...] = ()
 
 
-def shut_before(goals: Iterable[Goal]) -> frozenset[str]:
-    """Ids of the valves that must be shut before a round, as it opens them first; of all others nobody knows."""
+def off_before(goals: Iterable[Goal]) -> frozenset[str]:
+    """Ids of the valves that must be shut before a round and the pumps that must stand, as it opens or starts them
+    first; of all others nobody knows.
+    """
     first: dict[str, Goal] = {}
     for goal in sorted(goals, key=lambda goal: goal.stage):
-        if goal.action != "read":
+        if goal.action in OFF:
             first.setdefault(goal.unit, goal)
-    return frozenset(unit for unit, goal in first.items() if goal.action == "open")
+    return frozenset(unit for unit, goal in first.items() if not OFF[goal.action])
 
 
 def changes_of(network: Network, goals: Sequence[Goal]) -> tuple[Change, ...]:
@@ -51,8 +53,8 @@ def changes_of(network: Network, goals: Sequence[Goal]) -> tuple[Change, ...]:
     Returns:
         A change for each goal, in that order.
     """
-    shut = set(shut_before(goals))
-    now = _asked(network, shut)
+    off = set(off_before(goals))
+    now = _asked(network, off)
     found: list[Change] = []
     for goal in goals:
         if goal.action == "read":
@@ -62,28 +64,63 @@ def changes_of(network: Network, goals: Sequence[Goal]) -> tuple[Change, ...]:
             unsaid = f"no line was found at {goal.name}: what turning it changes is not known"
             found.append(Change(notes=(unsaid,)))
             continue
-        (shut.add if goal.action == "close" else shut.discard)(goal.unit)
-        after = _asked(network, shut)
-        found.append(_closing(goal, now, after) if goal.action == "close" else _opening(network, goal, now, after))
+        (off.add if OFF[goal.action] else off.discard)(goal.unit)
+        after = _asked(network, off)
+        if goal.action in ("stop", "start"):
+            found.append(_pumping(goal, now, after))
+        else:
+            found.append(_closing(goal, now, after) if OFF[goal.action] else _opening(network, goal, now, after))
         now = after
     return tuple(found)
 
 
 def assumptions_of(network: Network, goals: Sequence[Goal]) -> tuple[str, ...]:
     """What the changes of a round suppose, a sentence each."""
-    turned = [goal for goal in goals if goal.action != "read"]
-    if not turned:
-        return ()
-    shut = {goal.name: None for goal in turned if goal.unit in shut_before(goals)}
-    told = [f"{_and(shut)} {'is' if len(shut) == 1 else 'are'} shut before the round"] if shut else []
-    answer = _asked(network, {goal.unit for goal in turned})
-    return (*told, *(answer.assumptions if answer is not None else ()))
+    before = off_before(goals)
+    turned = {goal.unit: goal for goal in goals if goal.action in OFF}
+    told = []
+    for action, state in (("open", "shut"), ("start", "stopped")):
+        off = {goal.name: None for goal in goals if goal.action == action and goal.unit in before}
+        if off:
+            told.append(f"{_and(off)} {'is' if len(off) == 1 else 'are'} {state} before the round")
+    pumps = {goal.name: None for goal in turned.values() if goal.action in ("stop", "start")}
+    if pumps:
+        told.append(
+            f"what is told is what has a supply, not what flows: what stands still while {_and(pumps)} "
+            f"{'is' if len(pumps) == 1 else 'are'} stopped, 'cadgraph simulate' works out"
+        )
+    answer = _asked(network, [unit for unit, goal in turned.items() if goal.action in ("close", "open")])
+    supposed = answer.assumptions if answer is not None else ()
+    return (*told, *(_all_others(text) if pumps else text for text in supposed))
 
 
-def _asked(network: Network, shut: Iterable[str]) -> WhatIf | None:
-    """The consequences of valves being shut; None where none is that a line was found at."""
-    connected = sorted(place for place in shut if network.arcs(place))
-    return what_if(network, connected) if connected else None
+def _all_others(text: str) -> str:
+    return "all other valves are open and all other pumps run" if text == ALL_RUN else text
+
+
+def _asked(network: Network, off: Iterable[str]) -> WhatIf | None:
+    """The consequences of valves being shut, but for pumps that stand; None where none is that a line was found at."""
+    valves = sorted(place for place in off if network.arcs(place) and network.is_valve(place))
+    if not valves:
+        return None
+    answer = what_if(network, valves)
+    dry = {one.place for one in answer.run_dry}.intersection(off)
+    told = {would_run_dry(one) for one in answer.run_dry if one.place in dry}
+    return replace(
+        answer,
+        run_dry=tuple(one for one in answer.run_dry if one.place not in dry),
+        dead_headed=tuple(one for one in answer.dead_headed if one.place not in off),
+        remarks=tuple(text for text in answer.remarks if text not in told),
+    )
+
+
+def _pumping(goal: Goal, before: WhatIf | None, after: WhatIf | None) -> Change:
+    """What stopping a pump ends, and what starting it into closed valves would do."""
+    if goal.action == "stop":
+        return Change(notes=("what it alone drives stands still",))
+    known = set(_harm(before)) if before else set()
+    harm = tuple(text for text in (_harm(after) if after else ()) if text not in known)
+    return Change(notes=harm, harm=harm)
 
 
 def _closing(goal: Goal, before: WhatIf | None, after: WhatIf | None) -> Change:
@@ -155,7 +192,7 @@ def _sentences(answer: WhatIf) -> list[str]:
 
 def _harm(answer: WhatIf) -> list[str]:
     """What may break a pump."""
-    return [*(f"{one.name} would run dry{one.condition}" for one in answer.run_dry), *_dead_headed(answer)]
+    return [*map(would_run_dry, answer.run_dry), *_dead_headed(answer)]
 
 
 def _dead_headed(answer: WhatIf) -> list[str]:

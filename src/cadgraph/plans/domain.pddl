@@ -1,8 +1,8 @@
-; Rounds through a plant: gauges to read, valves to close and open. Lengths are whole millimetres.
+; Rounds through a plant: gauges to read, valves to close and open, pumps to stop and start. Lengths are whole millimetres.
 (define (domain cadgraph-round)
   (:requirements :strips :typing :action-costs)
   (:types spot unit task stage count - object
-          gauge valve - unit)
+          gauge valve pump - unit)
   (:constants none - count)
   (:predicates
     (at ?s - spot)                        ; where one is
@@ -13,9 +13,13 @@
     (out-of-reach ?u - unit)              ; takes a ladder or lift
     (is-open ?v - valve)
     (is-shut ?v - valve)
+    (runs ?p - pump)
+    (is-stopped ?p - pump)
     (to-read ?t - task ?g - gauge)
     (to-close ?t - task ?v - valve)
     (to-open ?t - task ?v - valve)
+    (to-stop ?t - task ?p - pump)
+    (to-start ?t - task ?p - pump)
     (belongs ?t - task ?k - stage)        ; and is not done yet
     (done ?t - task)
     (now ?k - stage)
@@ -57,6 +61,18 @@
                        (belongs ?t ?k) (now ?k) (left ?k ?n) (one-less ?m ?n))
     :effect (and (done ?t) (not (belongs ?t ?k)) (not (left ?k ?n)) (left ?k ?m)
                  (not (is-shut ?v)) (is-open ?v)))
+  (:action stop
+    :parameters (?t - task ?p - pump ?s - spot ?k - stage ?n ?m - count)
+    :precondition (and (at ?s) (works-at ?p ?s) (within-reach ?p) (to-stop ?t ?p) (runs ?p)
+                       (belongs ?t ?k) (now ?k) (left ?k ?n) (one-less ?m ?n))
+    :effect (and (done ?t) (not (belongs ?t ?k)) (not (left ?k ?n)) (left ?k ?m)
+                 (not (runs ?p)) (is-stopped ?p)))
+  (:action start
+    :parameters (?t - task ?p - pump ?s - spot ?k - stage ?n ?m - count)
+    :precondition (and (at ?s) (works-at ?p ?s) (within-reach ?p) (to-start ?t ?p) (is-stopped ?p)
+                       (belongs ?t ?k) (now ?k) (left ?k ?n) (one-less ?m ?n))
+    :effect (and (done ?t) (not (belongs ?t ?k)) (not (left ?k ?n)) (left ?k ?m)
+                 (not (is-stopped ?p)) (runs ?p)))
   (:action next-stage
     :parameters (?k ?l - stage)
     :precondition (and (now ?k) (left ?k none) (follows ?k ?l))

@@ -1,9 +1,9 @@
-"""What a round is for: gauges to read, valves to close and to open, in words."""
+"""What a round is for: gauges to read, valves to close and to open, pumps to stop and to start, in words."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Literal, get_args
 
@@ -11,19 +11,33 @@ from cadgraph._io.text import printable, shortened
 from cadgraph.errors import AskError
 from cadgraph.model.records import Node, Unit
 
-__all__ = ["MOST_GOALS", "PAST", "Action", "Goal", "goals_text", "parse_goals", "shown"]
+__all__ = ["MOST_GOALS", "OFF", "PAST", "STATES", "Action", "Goal", "goals_text", "parse_goals", "shown"]
 
-Action = Literal["read", "close", "open"]
+Action = Literal["read", "close", "open", "stop", "start"]
 
 MOST_GOALS = 200
 """Most goals of a round; the order of more is not looked for."""
 
-PAST = {"read": "read", "close": "closed", "open": "opened"}
+PAST: Mapping[Action, str] = {
+    "read": "read",
+    "close": "closed",
+    "open": "opened",
+    "stop": "stopped",
+    "start": "started",
+}
 """What is done of each goal, once it is done."""
 
-_EXAMPLE = "as in 'read G-003, G-007; close V-002'"
+OFF: Mapping[Action, bool] = {"close": True, "open": False, "stop": True, "start": False}
+"""Whether what is turned is off after it: a valve shut, a pump stopped."""
+
+STATES: Mapping[Action, str] = {"close": "closed", "open": "open", "stop": "stopped", "start": "running"}
+"""What it is after it."""
+
+_EXAMPLE = "as in 'read G-003, G-007; stop P-001; close V-002'"
+_BACK: Mapping[Action, Action] = {"close": "open", "open": "close", "stop": "start", "start": "stop"}
+_VERBS = "read, close, open, stop or start"
 _PLAIN = re.compile(r"[\w.+#/-]+")
-_DONE_AT = {"read": "gauge", "close": "valve", "open": "valve"}
+_DONE_AT = {"read": "gauge", "close": "valve", "open": "valve", "stop": "pump", "start": "pump"}
 # Valves that nobody turns: to ask for it is a mistake, of the one who asks or of a label.
 _NOT_BY_HAND = (
     ("check", "closes and opens by itself, nobody turns it by hand"),
@@ -38,7 +52,7 @@ class Goal:
 
     Args:
         action: what.
-        unit: id of the gauge or valve.
+        unit: id of the gauge, valve or pump.
         name: its tag.
         stage: counted from 0; all goals of a stage are done before any of the next, in any order among themselves.
     """
@@ -63,8 +77,9 @@ def parse_goals(text: str, find: Callable[[str], Node]) -> tuple[Goal, ...]:
         The goals as they stand there, without those that are said twice in a stage.
 
     Raises:
-        CadGraphError: nothing is called so, the verb is none, a gauge is to be closed or a valve to be read, a valve to
-            be closed and opened in the same stage, or a check or relief valve to be turned by hand.
+        CadGraphError: nothing is called so, the verb is none or not for such a unit (a gauge to be closed, a valve to
+            be read), a valve to be closed and opened in the same stage or a pump stopped and started, or a check or
+            relief valve to be turned by hand.
     """
     goals: list[Goal] = []
     action: Action | None = None
@@ -78,9 +93,9 @@ def parse_goals(text: str, find: Callable[[str], Node]) -> tuple[Goal, ...]:
             said = _verb(words[0])
             action, name = (said, " ".join(words[1:])) if said is not None else (action, " ".join(words))
             if action is None:
-                raise AskError(f"{shown(words[0])!r} is no verb; begin with read, close or open, {_EXAMPLE}")
+                raise AskError(f"{shown(words[0])!r} is no verb; begin with {_VERBS}, {_EXAMPLE}")
             if not name:
-                raise AskError(f"{action} what? Name a gauge or valve, {_EXAMPLE}")
+                raise AskError(f"{action} what? Name a {_DONE_AT[action]}, {_EXAMPLE}")
             goal = _goal(action, name, find, stage)
             if goal not in goals:
                 goals.append(goal)
@@ -118,7 +133,7 @@ def _goal(action: Action, name: str, find: Callable[[str], Node], stage: int) ->
 
 def _check(goals: list[Goal]) -> None:
     if not goals:
-        raise AskError(f"no goals; say what to read, close or open, {_EXAMPLE}")
+        raise AskError(f"no goals; say what to {_VERBS}, {_EXAMPLE}")
     if len(goals) > MOST_GOALS:
         raise AskError(f"{len(goals)} goals; at most {MOST_GOALS} go into a round, ask for several")
     done: dict[tuple[str, int], Goal] = {}
@@ -126,8 +141,8 @@ def _check(goals: list[Goal]) -> None:
         other = done.setdefault((goal.unit, goal.stage), goal)
         if other.action != goal.action:
             raise AskError(
-                f"{goal.name} is to be closed and opened in any order; put a semicolon between, as in "
-                f"'close {goal.name}; open {goal.name}'"
+                f"{goal.name} is to be {PAST[other.action]} and {PAST[goal.action]} in any order; put a semicolon "
+                f"between, as in '{other.action} {goal.name}; {goal.action} {goal.name}'"
             )
     state: dict[str, Goal] = {}
     for goal in goals:
@@ -135,7 +150,9 @@ def _check(goals: list[Goal]) -> None:
             continue
         last = state.get(goal.unit)
         if last is not None and last.action == goal.action:
-            raise AskError(f"{goal.name} is to be {PAST[goal.action]} twice without being turned back between")
+            raise AskError(
+                f"{goal.name} is to be {PAST[goal.action]} twice without being {PAST[_BACK[goal.action]]} between"
+            )
         state[goal.unit] = goal
 
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from importlib.resources import files
 
-from cadgraph.plans.changes import shut_before
+from cadgraph.plans.changes import off_before
 from cadgraph.plans.goals import Goal
 from cadgraph.plans.round import Round, Survey
 from cadgraph.plans.stops import Spot
@@ -128,11 +128,12 @@ class _Names:
         """All objects by their type."""
         most = max(sum(goal.stage == stage for goal in self.goals) for stage in self.stages)
         graph = self.known.network.graph
-        types = {unit: "gauge" if graph.unit(unit).unit_type == "gauge" else "valve" for unit in self.units}
+        found: dict[str, list[str]] = {"gauge": [], "valve": [], "pump": []}
+        for unit, name in self.units.items():
+            found[graph.unit(unit).unit_type].append(name)
         return {
             "spot": list(self.spots.values()),
-            "gauge": [name for unit, name in self.units.items() if types[unit] == "gauge"],
-            "valve": [name for unit, name in self.units.items() if types[unit] == "valve"],
+            **found,
             "task": [f"task-{number}" for number in range(1, len(self.goals) + 1)],
             "stage": [_stage(stage) for stage in self.stages],
             "count": [_count(number) for number in range(1, most + 1)],
@@ -142,13 +143,16 @@ class _Names:
 def _facts(known: Survey, goals: Sequence[Goal], names: _Names) -> Iterator[str]:
     yield f"(at {names.spots[known.start]})"
     yield from _ways(known, names)
-    shut = shut_before(goals)
+    off = off_before(goals)
     for unit, name in names.units.items():
         stop = known.stops[unit]
         yield f"(works-at {name} {names.spots[stop.spot]})"
         yield f"(within-reach {name})" if stop.aid is None else f"(out-of-reach {name})"
-        if any(goal.unit == unit and goal.action != "read" for goal in goals):
-            yield f"(is-shut {name})" if unit in shut else f"(is-open {name})"
+        done = {goal.action for goal in goals if goal.unit == unit}
+        if not done.isdisjoint(("close", "open")):
+            yield f"(is-shut {name})" if unit in off else f"(is-open {name})"
+        if not done.isdisjoint(("stop", "start")):
+            yield f"(is-stopped {name})" if unit in off else f"(runs {name})"
     for number, goal in enumerate(goals, start=1):
         yield f"(to-{goal.action} task-{number} {names.units[goal.unit]})"
         yield f"(belongs task-{number} {_stage(goal.stage)})"

@@ -18,7 +18,7 @@ from cadgraph.query.network import Network
 
 __all__ = ["Round", "Step", "Survey", "make_round", "survey"]
 
-Doing = Literal["walk", "climb", "set up", "read", "close", "open"]
+Doing = Literal["walk", "climb", "set up", "read", "close", "open", "stop", "start"]
 
 
 _NOTHING = Change()
@@ -156,7 +156,7 @@ def make_round(
         AskError: there is no goal, or the start is no unit.
     """
     if not goals:
-        raise AskError("a round needs a goal: something to read, close or open")
+        raise AskError("a round needs a goal: something to read, turn, stop or start")
     known = graph if isinstance(graph, Survey) else survey(graph, goals, start, walk)
     spots = [known.stops[goal.unit].spot for goal in goals]
     table = known.walks.table([known.start, *spots])
@@ -232,6 +232,8 @@ def _unsure(goal: Goal, stop: Stop) -> Iterator[str]:
 
 
 def _supposed(known: Survey, order: Sequence[Goal]) -> Iterator[str]:
+    if any(goal.action in ("stop", "start") for goal in order):
+        yield "pumps are stopped and started where they stand; one that is switched elsewhere takes no walk"
     if not known.terrain.known:
         yield (
             "this graph was built without places: levels, ways up and reach are not known, all stops are taken to be "

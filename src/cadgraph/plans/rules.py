@@ -3,10 +3,13 @@
 1. One begins at the start, or anywhere on the ground, and ends there.
 2. A walk stays on a level. Its length is not less than the shortest one's.
 3. A way is climbed from one of its ends to another.
-4. A gauge is read and a valve turned where one works at it; what takes a ladder or lift has had it set up.
+4. A gauge is read, a valve turned and a pump stopped where one works at it; what takes a ladder or lift has had it
+   set up.
 5. Only what is asked is done, each goal once, and all of a stage before any of the next.
-6. A valve that is closed on the round isn't closed again before it was opened, and the other way round.
+6. A valve that is closed on the round isn't closed again before it was opened, and the other way round; a pump
+   likewise.
 7. All goals are done at the end.
+8. A step that names its unit besides its id names the one with that id.
 """
 
 from __future__ import annotations
@@ -15,8 +18,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from cadgraph.model.records import Unit
-from cadgraph.plans.changes import shut_before
-from cadgraph.plans.goals import PAST, Goal
+from cadgraph.plans.changes import off_before
+from cadgraph.plans.goals import OFF, PAST, STATES, Goal
 from cadgraph.plans.round import Doing, Round, Survey
 from cadgraph.plans.stops import Spot, Stop
 
@@ -34,12 +37,14 @@ class Move:
         target: id of the unit or way.
         level: id of the level that a climb leads to; None where the way has one other end only.
         length: of a walk or climb [m]; None where it isn't said.
+        named: the tag that stands beside the target, where that is the tag of something else.
     """
 
     do: Doing
     target: str
     level: str | None = None
     length: float | None = None
+    named: str | None = None
 
 
 @dataclass(frozen=True)
@@ -111,18 +116,20 @@ class _Game:
     goals: Sequence[Goal]
     number: int | None = None
     faults: list[Fault] = field(default_factory=list)
-    shut: dict[str, bool] = field(default_factory=dict)
+    off: dict[str, bool] = field(default_factory=dict)
     set_up: set[str] = field(default_factory=set)
     done: set[Goal] = field(default_factory=set)
     walked: float = 0.0
 
     def __post_init__(self) -> None:
         self.here = self.known.start
-        shut = shut_before(self.goals)
-        self.shut |= {goal.unit: goal.unit in shut for goal in self.goals if goal.action != "read"}
+        off = off_before(self.goals)
+        self.off |= {goal.unit: goal.unit in off for goal in self.goals if goal.action in OFF}
 
     def play(self, move: Move) -> None:
         """One step."""
+        if move.named not in (None, move.target):
+            self._wrong(f"it names {move.named}, but is at {self._name(move.target)}")
         if move.do == "walk":
             self._walk(move)
         elif move.do == "climb":
@@ -199,11 +206,10 @@ class _Game:
                 self._wrong(f"{move.do} {name} comes before {other.action} {other.name}, which is asked to come first")
         if stop.aid is not None and move.target not in self.set_up:
             self._wrong(f"{name} takes a ladder or lift, which was not set up: {stop.aid}")
-        if move.do != "read":
-            closing = move.do == "close"
-            if self.shut.get(move.target) is closing:
-                self._wrong(f"{name} is {'closed' if closing else 'open'} already")
-            self.shut[move.target] = closing
+        if goal.action in OFF:
+            if self.off.get(move.target) is OFF[goal.action]:
+                self._wrong(f"{name} is {STATES[goal.action]} already")
+            self.off[move.target] = OFF[goal.action]
         self.done.add(goal)
 
     def _standing_at(self, move: Move) -> Stop | None:

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from cadgraph.errors import AskError, CadGraphError
 from cadgraph.model.records import Node, Place, Unit
 from cadgraph.plans.goals import shown
+from cadgraph.plans.round import Doing
 from cadgraph.plans.rules import Move
 
 __all__ = ["WrittenRound", "read_written"]
@@ -20,8 +20,9 @@ class _Written(BaseModel):
 
 
 class _WrittenStep(_Written):
-    do: Literal["walk", "climb", "set up", "read", "close", "open"]
+    do: Doing
     at: str = Field(max_length=1000)
+    name: str | None = Field(default=None, max_length=1000)
     level: str | None = Field(default=None, max_length=1000)
     length_m: float | None = Field(default=None, ge=0)
 
@@ -32,7 +33,8 @@ class WrittenRound(_Written):
     Args:
         goals: in words; ``""`` where they are given apart.
         start: tag or id of the unit where it begins and ends.
-        steps: each with ``do`` and ``at`` (tag or id); ``level`` of a climb (id) and ``length_m`` may be left out.
+        steps: each with ``do`` and ``at`` (tag or id); ``level`` of a climb (id), ``length_m`` and ``name``, the tag in
+            words, may be left out.
         length_m: of the whole.
     """
 
@@ -47,19 +49,25 @@ class WrittenRound(_Written):
         Args:
             find: the node with a tag or id; raises where there is none.
         """
-        known: dict[str, str] = {}
+        known: dict[str, Node | None] = {}
 
-        def id_of(name: str) -> str:
+        def found(name: str) -> Node | None:
             if name not in known:
                 try:
-                    node = find(name)
+                    known[name] = find(name)
                 except CadGraphError:
-                    known[name] = shown(name)
-                else:
-                    known[name] = node.id if isinstance(node, Unit | Place) else shown(name)
+                    known[name] = None
             return known[name]
 
-        return tuple(Move(step.do, id_of(step.at), step.level, step.length_m) for step in self.steps)
+        def move_of(step: _WrittenStep) -> Move:
+            node = found(step.at)
+            target = node.id if isinstance(node, Unit | Place) else shown(step.at)
+            # Ways have no tags: what they are called in words holds their kind as well.
+            others = isinstance(node, Unit) and step.name is not None and found(step.name) is not node
+            named = shown(step.name) if others and step.name is not None else None
+            return Move(step.do, target, step.level, step.length_m, named)
+
+        return tuple(map(move_of, self.steps))
 
 
 def read_written(text: str, where: str) -> WrittenRound:

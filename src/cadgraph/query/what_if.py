@@ -19,7 +19,10 @@ from cadgraph.query.network import Arc, Network
 if TYPE_CHECKING:
     import networkx
 
-__all__ = ["Consequence", "WhatIf", "what_if"]
+__all__ = ["ALL_RUN", "Consequence", "WhatIf", "what_if", "would_run_dry"]
+
+ALL_RUN = "all other valves are open and all pumps run"
+"""What every answer supposes."""
 
 # Why a valve may not be shut, by what it can be relied on for; of an open kind only where not all that it may be shuts.
 _NOT_SHUT: Mapping[Duty, str] = {
@@ -54,6 +57,11 @@ class Consequence:
     def condition(self) -> str:
         """``why`` as the end of a sentence."""
         return f", {self.why}" if self.why else ""
+
+
+def would_run_dry(pump: Consequence) -> str:
+    """What happens to a pump that is cut off while it runs."""
+    return f"{pump.name} would run dry{pump.condition}"
 
 
 @dataclass(frozen=True)
@@ -211,7 +219,7 @@ class _Closing:
             run_dry=run_dry,
             doubts=self._doubts(cut),
             assumptions=self._assumptions(),
-            remarks=(*self._remarks(before), *(f"{one.name} would run dry{one.condition}" for one in run_dry)),
+            remarks=(*self._remarks(before), *map(would_run_dry, run_dry)),
         )
 
     # What feeds
@@ -414,7 +422,7 @@ class _Closing:
         )
 
     def _assumptions(self) -> tuple[str, ...]:
-        told = ["all other valves are open and all pumps run"]
+        told = [ALL_RUN]
         if self.given is not None:
             told.append("only the sources that were given feed")
         elif not self.sources:
