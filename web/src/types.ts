@@ -184,6 +184,7 @@ export type Edit =
   | { kind: "cut"; first: string; second: string }
   | { kind: "direction"; source: string; target: string; via: string[]; flow: Flow }
   | { kind: "tag"; unit: string; tag: string }
+  | { kind: "device"; unit: string; device: string }
   | { kind: "ground"; part: string; ground: boolean };
 
 export interface Update {

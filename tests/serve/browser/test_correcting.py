@@ -140,6 +140,11 @@ def test_tags_units_and_directions_are_put_right_in_the_inspector(page, server):
     page.press("Enter")
     until(lambda: page.text("unit-tag") == "PSV 4711/a", "the new tag")
     assert page.units["PSV 4711/a"]["parts"] == wanted["V-003"]["parts"]
+    page.by("edit-kind").click()
+    page.by("kind-input").fill("relief valve")
+    page.press("Enter")
+    until(lambda: page.text("unit-kind") == "Relief valve", "what it is")
+    assert page.units["PSV 4711/a"]["kind"] == "relief valve"
     page.leave_fields()
     # Two units are one: from the inspector of the first one, by a click on the second one.
     page.page.locator("details", has_text="More corrections").locator("summary").click()

@@ -21,7 +21,7 @@ export function carry(edits: Edit[], before: Content, now: Content): Edit[] | nu
       case "merge": case "split": return { ...edit, parts: edit.parts.map(part) };
       case "join": case "cut": return { ...edit, first: part(edit.first), second: part(edit.second) };
       case "direction": return { ...edit, via: edit.via.map(part) };
-      case "tag": return edit;
+      case "tag": case "device": return edit;
     }
   });
   return lost ? null : carried;

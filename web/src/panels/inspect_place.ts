@@ -1,6 +1,6 @@
 // The inspector of a unit, and of a junction or an end of a pipe.
 
-import type { Content, End, Unit } from "../types.ts";
+import type { Content, Edit, End, Unit } from "../types.ts";
 import { el, fill } from "../dom.ts";
 import { bar, fold, iconButton, swatch } from "./widgets.ts";
 import type { Page } from "./page.ts";
@@ -13,7 +13,7 @@ export function inspectUnit(page: Page, content: Content, unit: Unit, head: HTML
   const color = content.groups.find((group) => group.unit === unit.type)?.color ?? null;
   fill(head,
     el("div", { class: "title" }, swatch(color, unit.kind ? "sure" : "likely"), tagLine(page, unit)),
-    kind(unit),
+    kind(page, unit),
     unit.handling && el("p", { "data-test": "unit-handling" }, upper(unit.handling)),
     missing(page, content, unit),
     viewButtons(page, unit.parts),
@@ -41,29 +41,44 @@ export function inspectUnit(page: Page, content: Content, unit: Unit, head: HTML
     page.canEdit() && fold("More corrections", false, more(page, content, unit, row)));
 }
 
-/** The tag, put right in its place: Enter takes it, Escape leaves it; a refusal is said beneath. */
-function tagLine(page: Page, unit: Unit): HTMLElement {
+/** A value that is put right in its place: Enter takes it, Escape leaves it; a refusal is said beneath. */
+interface InPlace {
+  name: string;
+  /** What is drawn while nobody changes it. */
+  shown: HTMLElement;
+  value: string;
+  change: string;
+  empty: string;
+  /** What it may be, offered while one types. */
+  offered?: readonly string[];
+  edit: (value: string) => Edit;
+}
+
+function inPlace(page: Page, what: InPlace): HTMLElement {
   const box = el("div", { class: "grow tag-line" });
-  const show = () => fill(box, el("div", { class: "spread" }, el("h2", { "data-test": "unit-tag" }, unit.tag),
-    page.canEdit() && iconButton("edit", "Change the tag", edit, "edit-tag")));
+  const test = what.name.toLowerCase();
+  const show = () => fill(box, el("div", { class: "spread" }, what.shown,
+    page.canEdit() && iconButton("edit", what.change, edit, `edit-${test}`)));
   const edit = () => {
+    const list = what.offered && el("datalist", { id: `${test}-offered` }, ...what.offered.map((value) => el("option", { value })));
     const input = el(
       "input",
       {
-        type: "text", value: unit.tag, maxlength: 80, "aria-label": "Tag", "data-test": "tag-input", spellcheck: "false"
+        type: "text", value: what.value, maxlength: 80, "aria-label": what.name, "data-test": `${test}-input`,
+        spellcheck: "false", list: list ? list.id : null
       }
     );
     const trouble = el("p", { class: "trouble", role: "alert" });
     const save = async () => {
-      const tag = input.value.trim();
-      if (tag === unit.tag) return show();
-      if (!tag) return void (trouble.textContent = "A tag has at least one letter.");
+      const value = input.value.trim();
+      if (value === what.value) return show();
+      if (!value) return void (trouble.textContent = what.empty);
       input.disabled = true;
-      const taken = await page.edit([{ kind: "tag", unit: unit.id, tag }]);
+      const taken = await page.edit([what.edit(value)]);
       input.disabled = false;
       if (taken) return input.blur();
       if (!input.isConnected) return;
-      trouble.textContent = page.refusal() || "This tag was not taken.";
+      trouble.textContent = page.refusal() || "This was not taken.";
       input.focus();
     };
     input.addEventListener("keydown", (event) => {
@@ -75,8 +90,8 @@ function tagLine(page: Page, unit: Unit): HTMLElement {
     });
     fill(
       box,
-      el("div", { class: "spread" }, input, button("Save", "Take this tag", () => void save(), "tag-save", "main")),
-      trouble
+      el("div", { class: "spread" }, input, button("Save", `${what.change}: take this`, () => void save(), `${test}-save`, "main")),
+      list, trouble
     );
     input.select();
   };
@@ -84,18 +99,44 @@ function tagLine(page: Page, unit: Unit): HTMLElement {
   return box;
 }
 
-function kind(unit: Unit): HTMLElement {
+function tagLine(page: Page, unit: Unit): HTMLElement {
+  return inPlace(page, {
+    name: "Tag", shown: el("h2", { "data-test": "unit-tag" }, unit.tag), value: unit.tag, change: "Change the tag",
+    empty: "A tag has at least one letter.", edit: (tag) => ({ kind: "tag", unit: unit.id, tag })
+  });
+}
+
+/** Usual kinds by type of unit; any other words are taken as well. */
+const KINDS: Readonly<Record<string, readonly string[]>> = {
+  valve: [
+    "ball valve", "butterfly valve", "check valve", "control valve", "diaphragm valve", "gate valve", "globe valve",
+    "needle valve", "plug valve", "pressure reducing valve", "relief valve", "safety valve", "solenoid valve", "three-way valve"
+  ],
+  gauge: ["flow meter", "level gauge", "pressure gauge", "sight glass", "temperature gauge", "thermowell", "transmitter"],
+  pump: ["centrifugal pump", "diaphragm pump", "gear pump", "piston pump", "screw pump"],
+  tank: ["column", "horizontal tank", "tank", "vessel"],
+};
+
+function kind(page: Page, unit: Unit): HTMLElement {
   const guesses = unit.kind_guesses.slice(0, 4);
+  const edit = (device: string): Edit => ({ kind: "device", unit: unit.id, device });
+  const guess = (name: string) => page.canEdit()
+    ? linkButton(upper(name), `${unit.tag} is a ${name}`, () => void page.edit([edit(name)]), "kind-guess")
+    : upper(name);
   return el("div", { class: "sureness" },
-    el("p", { "data-test": "unit-kind" }, upper(unit.kind ?? `${unit.type}, kind not known`)),
+    inPlace(page, {
+      name: "Kind", shown: el("p", { "data-test": "unit-kind" }, upper(unit.kind ?? `${unit.type}, kind not known`)),
+      value: unit.kind ?? "", change: "Say what it is", empty: "Say in words what it is, as in check valve.",
+      offered: KINDS[unit.type] ?? [], edit
+    }),
     guesses.length > 0 && el("ul", { class: "rows" }, ...guesses.map(([name, share]) =>
       el(
-        "li", { class: "row" }, el("span", { class: "grow" }, upper(name)), bar(share, percent(share)),
+        "li", { class: "row" }, el("span", { class: "grow" }, guess(name)), bar(share, percent(share)),
         el("span", { class: "number" }, percent(share))
       ))),
-    guesses.length > 1 && el(
-      "p", { class: "soft" }, "The kind follows the labels of its parts: correct one of them to change it."
-    ));
+    guesses.length > 1 && el("p", { class: "soft" }, page.canEdit()
+      ? "Nobody is sure: say what it is, or correct the label of what turns it."
+      : "The kind follows the labels of its parts."));
 }
 
 function missing(page: Page, content: Content, unit: Unit): HTMLElement | null {
