@@ -153,6 +153,16 @@ def test_many_plants_do_as_one_does():
             break
 
 
+def test_many_plants_name_what_is_seen_and_moved_as_one_does():
+    from gymnasium.wrappers.vector import DictInfoToList
+
+    one, many = PlantEnv(tanked()), PlantVectorEnv(2, tanked())
+    told = one.reset(seed=1)[1]
+    assert told["observed"][-1] == "T-001"
+    for info in DictInfoToList(many).reset(seed=1)[1]:
+        assert (info["observed"], info["moved"]) == (told["observed"], told["moved"])
+
+
 def test_what_has_ended_begins_anew_at_the_next_step():
     many = gymnasium.make_vec(
         "cadgraph/Plant-v0", num_envs=2, vectorization_mode="vector_entry_point", graph=pumping(), dt=1.0, seconds=2.0

@@ -227,6 +227,7 @@ class _Shape:
         gauges: tags of those that show anything.
         rows: ``(n_gauges,)`` where they stand among all gauges.
         spans: ``(n_gauges,)`` what is at the end of their scales.
+        tanks: tags of the tanks.
         heights: ``(n_tanks,)`` of the tanks [m].
         opening: ``(n_valves,)`` in the beginning.
     """
@@ -236,6 +237,7 @@ class _Shape:
     gauges: tuple[str, ...]
     rows: npt.NDArray[np.int64]
     spans: Floats
+    tanks: tuple[str, ...]
     heights: Floats
     opening: Floats
 
@@ -247,9 +249,20 @@ class _Shape:
             tuple(process.balance.hand), tuple(process.balance.speed), tuple(shown),
             np.array([list(gauges).index(tag) for tag in shown], np.int64),
             np.array([gauges[tag].span for tag in shown], float),
+            tuple(process.scenario.tanks),
             np.array([tank.height for tank in process.scenario.tanks.values()]),
             np.array([process.balance.opening[tag] for tag in process.balance.hand]),
         )  # fmt: skip
+
+    @property
+    def observed_names(self) -> tuple[str, ...]:
+        """Tags in the order of what is observed."""
+        return (*self.gauges, *self.tanks)
+
+    @property
+    def moved_names(self) -> tuple[str, ...]:
+        """Tags in the order of actions."""
+        return (*self.valves, *self.pumps)
 
     def action_space(self) -> spaces.Box:
         return spaces.Box(0.0, 1.0, (len(self.valves) + len(self.pumps),), np.float32)
@@ -361,7 +374,7 @@ class PlantEnv(gymnasium.Env[npt.NDArray[np.float32], npt.NDArray[np.float32]]):
         Raises:
             ValueError: it has another shape, or a number is out of range.
         """
-        tags = (*self._shape.valves, *self._shape.pumps)
+        tags = self._shape.moved_names
         values = _fitting(action, (len(tags),)).tolist()
         self.process.step(dict(zip(tags, values, strict=True)), self.dt)
         moment = self._moment()
@@ -385,8 +398,8 @@ class PlantEnv(gymnasium.Env[npt.NDArray[np.float32], npt.NDArray[np.float32]]):
     def _info(self) -> dict[str, Any]:
         state = self.process.state
         return {
-            "observed": [*self._shape.gauges, *state.level],
-            "moved": [*self._shape.valves, *self._shape.pumps],
+            "observed": list(self._shape.observed_names),
+            "moved": list(self._shape.moved_names),
             "opening": dict(state.opening),
             "remarks": list(state.remarks),
             "time": state.time,
@@ -446,6 +459,10 @@ class PlantVectorEnv(VectorEnv[npt.NDArray[np.float32], npt.NDArray[np.float32],
             seed: of the lot of all plants together.
             options: none is known.
 
+        Returns:
+            What is observed, ``(num_envs, n_observed)``, and what names its columns and those of actions:
+            ``info["observed"][0]``, ``info["moved"][0]``.
+
         Raises:
             ValueError: a seed for each plant.
         """
@@ -454,7 +471,10 @@ class PlantVectorEnv(VectorEnv[npt.NDArray[np.float32], npt.NDArray[np.float32],
         super().reset(seed=seed)
         self._begin(np.arange(self.num_envs))
         self._ended[:] = False
-        return self._shape.observed(self._moment()), {}
+        # An entry for each plant, as wrappers of Gymnasium expect it.
+        named: dict[str, Any] = {"observed": self._shape.observed_names, "moved": self._shape.moved_names}
+        info = {key: np.fromiter([list(names)] * self.num_envs, object) for key, names in named.items()}
+        return self._shape.observed(self._moment()), info
 
     def step(
         self, actions: npt.NDArray[np.float32]
