@@ -175,6 +175,7 @@ def slab(thick, side=0.6, aside=0.0):
         (slab(0.029), "blind"),
         (slab(0.031), "unknown"),  # a wall: the pipe may go on behind it
         (slab(0.006, side=0.12), "unknown"),  # no wider than a flange of a device
+        (slab(0.006, side=3.0), "unknown"),  # cladding, or the side of a cabinet
         (slab(0.006, aside=0.3), "open"),  # covers half of the mouth
         (turned(shapes.tube(0.3, 0.02, 0.006), (0.003, 0, 0), (1, 0, 0)), "open"),  # has a hole
     ],

@@ -17,7 +17,7 @@ from cadgraph.model.records import Part, Terminal, Unit
 from cadgraph.model.vocabulary import FASTENERS
 from cadgraph.query.network import Network
 
-__all__ = ["Against", "standing_against"]
+__all__ = ["Against", "is_gauge_by_place", "standing_against"]
 
 _STEPS = 3  # so many loose parts at most lead from a piece to what stands against it
 _NEAR = 0.005  # [m]; how far beyond its own radius an end lies from what it stands against at most
@@ -54,6 +54,17 @@ def standing_against(network: Network, home: Mapping[str, str], places: Collecti
         Each once, by the shortest way there, in the order of the parts.
     """
     return list(_Search(network, home, frozenset(places)).found())
+
+
+def is_gauge_by_place(network: Network, place: str) -> bool:
+    """Whether a gauge at the end of a line is one only because of where it stands: its shape did not say so."""
+    node = network.places[place]
+    ends = len(network.arcs(place)) == 1 or network.stands_aside(place)
+    if not isinstance(node, Unit) or not network.is_gauge(place) or not ends:
+        return False
+    labels = [label for part in node.parts if (label := network.graph.part(part).label) is not None]
+    former = [label.evidence.before for label in labels if label.source == "network" and label.evidence is not None]
+    return len(former) == len(labels) and any(one is None or one.group != labels[0].group for one in former)
 
 
 @dataclass(frozen=True)
@@ -131,10 +142,14 @@ class _Search:
                 yield end.id
 
     def _lacks(self, unit: Unit) -> bool:
-        """Whether a unit that no line joins to the piece has fewer lines than its kind needs; gauges end lines."""
+        """Whether a unit that no line joins to the piece has fewer lines than its kind needs; gauges end lines, but for
+        those that are some only because a line ends at them.
+        """
         network = self.network
-        if network.is_gauge(unit.id) or any(arc.end in self.places for arc in network.arcs(unit.id)):
+        if any(arc.end in self.places for arc in network.arcs(unit.id)):
             return False
+        if network.is_gauge(unit.id):
+            return is_gauge_by_place(network, unit.id)
         return network.ports_in_use(unit.id) < least_ports(unit.unit_type, unit.kind)
 
 

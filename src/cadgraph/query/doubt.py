@@ -10,7 +10,7 @@ import numpy as np
 
 from cadgraph.model.ports import least_ports, port_word
 from cadgraph.model.records import Joint, Part, Port, Unit
-from cadgraph.query.against import Against, standing_against
+from cadgraph.query.against import Against, is_gauge_by_place, standing_against
 from cadgraph.query.network import Network
 
 __all__ = [
@@ -32,7 +32,7 @@ _CLOSURES = frozenset({"blind flange", "pipe cap"})
 _NEAR = 0.01  # [m]; so near to a nozzle a line that joins there begins, or nearer than a quarter of its bore
 
 _BY_PLACE = (
-    "taken for a {} because one line ends at it; by its shape alone it is something else, and maybe a valve to the open"
+    "taken for a {} because one line ends at it; by its shape it may be something else that leads to the open"
 )
 
 _AS_DRAWN = "the plant that this drawing was written from goes on here, maybe: its own graph says how"
@@ -83,7 +83,7 @@ def open_sides(network: Network, places: Collection[str], about: About = "follow
     joined = {network.owner_of_part(doubt.parts[1]) for doubt in unjoined}
     found = standing_against(network, home, places)
     against = [one for one in found if one.place is None or one.place not in joined]
-    guessed = [place for place in places if place not in told and _is_gauge_by_place(network, place)]
+    guessed = [place for place in places if place not in told and is_gauge_by_place(network, place)]
     ends = [Doubt(place, network.name(place), _BY_PLACE.format(network.what(place))) for place in guessed]
     ends += [Doubt(place, network.name(place), _AS_DRAWN) for place in places if place in network.doubted]
     return (*short, *bare, *ends, *unjoined, *(_stands_against(network, home, one, about) for one in against))
@@ -137,17 +137,6 @@ def likely_joints(network: Network) -> list[Joint]:
     """The joints that were not made although they are likely, the likeliest first."""
     found = [joint for joint in network.open_joints if joint.score >= _LIKELY]
     return sorted(found, key=lambda joint: (-joint.score, joint.first, joint.second, joint.point))
-
-
-def _is_gauge_by_place(network: Network, place: str) -> bool:
-    """Whether a gauge at the end of a line is one only because of where it stands: its shape said otherwise."""
-    node = network.places[place]
-    ends = len(network.arcs(place)) == 1 or network.stands_aside(place)
-    if not isinstance(node, Unit) or not network.is_gauge(place) or not ends:
-        return False
-    labels = [label for part in node.parts if (label := network.graph.part(part).label) is not None]
-    former = [label.evidence.before for label in labels if label.source == "network" and label.evidence is not None]
-    return len(former) == len(labels) and any(one is not None and one.group != labels[0].group for one in former)
 
 
 def _short(network: Network, place: str, about: About) -> Doubt | None:
@@ -237,6 +226,8 @@ def _outside(network: Network, found: Against) -> str:
     node = network.places[found.place]
     if not isinstance(node, Unit):
         return f"{network.what(found.place)} {network.name(found.place)} of another line lies at"
+    if network.is_gauge(found.place):
+        return f"{node.tag}, taken for a {network.what(found.place)} because one line ends at it, stands against"
     used, least = network.ports_in_use(found.place), least_ports(node.unit_type, node.kind)
     few = f"only {_NUMBERS[used]}" if used else "none"
     return f"{node.tag}, {few} of whose {_NUMBERS[least]} {port_word(node.unit_type)}s has a line, stands against"

@@ -102,6 +102,13 @@ def test_a_wider_level_nozzle_draws_and_one_that_looks_up_delivers():
     assert pump(opening((0.2, 0, 0), X, 0.08), opening((0, 0, 0.2), UP, 0.1), ball) == {}
 
 
+def test_a_nozzle_that_looks_up_along_what_is_long_upright_is_no_suction():
+    tall = turned(shapes.cylinder(0.1, 0.8), ORIGIN, UP)
+    assert pump(opening((0, 0, 0.4), UP), opening((0.2, 0, 0.2), X), tall) == {}
+    below = pump(opening((0, 0, -0.4), DOWN), opening((0.2, 0, -0.2), X), tall)
+    assert below == {"X1 P1": SURE["pump, shaft"], "P1 X2": SURE["pump, shaft"]}
+
+
 def test_a_pump_in_one_mesh_with_its_base_draws_along_its_shaft():
     mesh = merged(
         MOTOR, shapes.box((1.0, 0.3, 0.1), (0.1, 0, -0.2)), turned(shapes.cylinder(0.15, 0.1), (0.45, 0, 0), X)

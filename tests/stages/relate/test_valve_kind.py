@@ -105,6 +105,16 @@ def test_a_lever_with_a_weight_is_no_ball_valve():
     assert not found or found[0][1] < SURE_FROM
 
 
+@pytest.mark.parametrize(("aside", "kind"), [(0.0, "ball valve"), (0.004, "ball valve"), (0.02, "check valve")])
+def test_a_lever_on_a_shaft_above_the_bore_is_the_arm_of_a_check_valve(aside, kind):
+    # The shaft lies level, out of the side of the body, and the lever beside it.
+    shaft = turned(shapes.cylinder(0.01, 0.12), (0, 0.07, aside), (0, 1, 0))
+    lever = shapes.box((0.02, 0.012, 0.24), (0, 0.125, 0.1 + aside))
+    found = kinds([body(0.178), shaft, lever], ["valve body", "valve stem", "lever"], 0.178, 50)
+    assert found[0][0] == kind
+    assert (found[0][1] >= SURE_FROM) == (kind == "ball valve")
+
+
 def test_a_lever_over_a_length_of_check_valves_alone_may_be_the_arm_of_a_weight():
     meshes = [body(0.356, 0.14), operator("lever", 0.356)]
     found = kinds(meshes, ["valve body", "lever"], 0.356, 150)

@@ -141,7 +141,9 @@ def _drop_stubs(net: Net, n_units: int, drawing: Drawing, closed: Closed) -> boo
 def _is_stub(net: Net, span: Span, tip: int, foot: int, closed: Closed) -> bool:
     """Whether a span from a joint, its foot, to a free tip is no pipe: a flange or gasket, a fitting's lid or pot."""
     wide = max(_width(net.spans[other]) for other in net.at[foot])
-    pocket = tip in closed.pockets or not closed.covers.isdisjoint(span.via)
+    # Only what lies at the tip closes it: a line that goes on through a conical socket is none of a fitting's.
+    last = span.via[-1 if tip == span.b else 0] if span.via else None
+    pocket = tip in closed.pockets or last in closed.covers
     return (pocket and span.length <= max(_STUB, _POCKET * wide)) or (not span.pieces and span.length <= _STUB)
 
 

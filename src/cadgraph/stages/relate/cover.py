@@ -24,6 +24,9 @@ _NEAR, _LEAST_NEAR = 0.1, 0.002
 # A plate is no thicker than this [m] (chequer and base plates; walls and slabs are), and goes on beside the mouth: it
 # is wider than this many radii both ways, which the flanges and bodies of devices are not.
 _THIN, _WIDE = 0.03, 5.0
+# A plate that stands upright and is wider than this many radii both ways is cladding, or the side of a cabinet or a
+# container: nobody welds such a one onto a pipe to close it. What lies is a floor, that posts stand on.
+_PANEL, _UPRIGHT = 30.0, 0.7
 # Another pipe within this much behind a plate [m] goes through it.
 _BEHIND = 0.15
 
@@ -51,10 +54,15 @@ def cover_of(parts: Parts, others: Collection[int], ends: Ends, row: int) -> Cov
         thick = _thickness(corners, radius, near)
         if thick is None:
             continue
-        wide = np.ptp(corners[..., :2].reshape(-1, 2), axis=0).min(initial=np.inf) >= _WIDE * radius
-        through = _goes_on(ends, row, thick + _BEHIND)
-        return "blind" if thick <= _THIN and wide and not through else "unknown"
+        width = float(np.ptp(corners[..., :2].reshape(-1, 2), axis=0).min(initial=np.inf))
+        closes = thick <= _THIN and width >= _WIDE * radius and not _is_panel(way, width / radius)
+        return "blind" if closes and not _goes_on(ends, row, thick + _BEHIND) else "unknown"
     return None
+
+
+def _is_panel(way: Floats, width: float) -> bool:
+    """Whether a plate that a pipe heads for is a wall rather than its end; its width in radii of the pipe."""
+    return width >= _PANEL and abs(float(way[2])) < _UPRIGHT
 
 
 def _thickness(corners: Floats, radius: float, near: float) -> float | None:

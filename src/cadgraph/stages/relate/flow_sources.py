@@ -228,6 +228,9 @@ def _axial(a: Opening, b: Opening, shaft: Floats | None) -> int | None:
     # Which way a nozzle without a direction looks is not known: it neither lies along the shaft nor across.
     if along[eye] < _AXIAL or not 0.0 <= along[1 - eye] <= _RADIAL:
         return None
+    # Above an upright shaft stands the motor: what is long there is a tall base, and the shaft lies level.
+    if _level_and_up(a, b) == 1 - eye:
+        return None
     reach = abs(float(np.dot(np.subtract(a.point, b.point), shaft)))
     width = max(a.diameter or 0.0, b.diameter or 0.0)
     return eye if not width or reach <= _SHORT * width else None

@@ -29,7 +29,7 @@ _HOLLOW = 0.3  # least bore of a tube as share of its radius
 _DOWN, _LEVEL = 0.94, 0.05  # a post: how upright it is, and within what height of the lowest part it ends [m]
 # How sure it is that they join (ours): of a hollow tube that may be a post, and of a solid one.
 _TUBE, _SOLID = 0.3, 0.2
-_VESSELS = frozenset({"tank", "equipment"})
+_VESSELS, _PUMPS = frozenset({"tank", "equipment"}), frozenset({"pump"})
 
 
 @dataclass(frozen=True)
@@ -54,7 +54,7 @@ def likely_stubbed(given: RelateInput, roles: Roles, piping: Collection[int]) ->
         piping: parts that carry lines or may.
     """
     functional = given.vocabulary.connector_groups | given.vocabulary.unit_of_group.keys()
-    carrying = _vessels(given, roles).union(piping)
+    carrying = _parts_of(given, roles, _VESSELS | _PUMPS).union(piping)
     return [
         part
         for part, group in enumerate(roles.groups)
@@ -85,7 +85,8 @@ def find_stubbed(
     tubes = _tubes(candidates, traced, lines)
     if not tubes:
         return Stubbed({})
-    sight = _Sight(given, gather_ends({part: traced[part] for part in tubes}), lines, _vessels(given, roles))
+    vessels, pumps = _parts_of(given, roles, _VESSELS), _parts_of(given, roles, _PUMPS)
+    sight = _Sight(given, gather_ends({part: traced[part] for part in tubes}), lines, vessels, pumps)
     found = {part: traced[part] for part in tubes if sight.is_branch(part)}
     return Stubbed(found, tuple(joint for part in tubes if part not in found for joint in sight.open_joints(part)))
 
@@ -104,12 +105,14 @@ class _Sight:
         ends: of the tubes that may be branches.
         lines: of the parts that carry one already.
         vessels: parts of tanks and of other equipment.
+        pumps: parts of pumps.
     """
 
     given: RelateInput
     ends: Ends
     lines: Mapping[int, Centreline]
     vessels: frozenset[int]
+    pumps: frozenset[int]
 
     def is_branch(self, part: int) -> bool:
         """Whether a hollow tube is set on the side of a line, and nothing stops it at its other end."""
@@ -136,8 +139,11 @@ class _Sight:
         # Lugs, legs and rails are welded to vessels much as pipes are: none of them is taken for one.
         if not mounts or not far or any(map(self._stands, far)) or any(map(self._is_post, far)):
             return
+        if not self.pumps.isdisjoint(mounts.values()) and any(map(self._faces_pump, far)):
+            return  # the guard of a coupling
         for row, vessel in mounts.items():
-            yield _open(row, vessel, None, self.ends, self._are_hollow(mounts))
+            wall = "pump" if vessel in self.pumps else "vessel"
+            yield _open(row, vessel, None, self.ends, self._are_hollow(mounts), wall)
 
     def _taps(self, part: int) -> dict[int, tuple[int, Tap]]:
         """The ends of a part that are set on the side of a line, each with that line's part and where on it."""
@@ -155,10 +161,13 @@ class _Sight:
         return found
 
     def _mounts(self, part: int) -> dict[int, int]:
-        """The ends of a part at the wall of a vessel, or inside as a dip tube's, each with that part of the vessel."""
+        """The ends of a part at the wall of a vessel, or inside as a dip tube's, each with that part of the vessel; at
+        the casing of a pump those of a hollow tube, as shafts and feet are at it as well.
+        """
         found: dict[int, int] = {}
         for row in self.ends.of_part.get(part, ()):
-            vessels = [other for other in self._near(row) if other in self.vessels]
+            into = self.vessels | self.pumps if self._are_hollow([row]) else self.vessels
+            vessels = [other for other in self._near(row) if other in into]
             walls = [other for other in vessels if self._reaches_in(row, other) or self._is_covered(row, [other])]
             if walls:
                 found[row] = walls[0]
@@ -195,6 +204,13 @@ class _Sight:
         reach = float(self.ends.radius[row]) + _REACH
         return bool((self.ends.point[row] >= low - reach).all() and (self.ends.point[row] <= high + reach).all())
 
+    def _faces_pump(self, row: int) -> bool:
+        """Whether an end looks at a part of a pump, from no farther than it is wide."""
+        ahead = self.ends.point[row] + 2 * self.ends.radius[row] * self.ends.direction[row]
+        low, high = np.minimum(ahead, self.ends.point[row]), np.maximum(ahead, self.ends.point[row])
+        boxes = self.given.parts.properties.aabb[sorted(self.pumps - {int(self.ends.part[row])})]
+        return bool(((boxes[:, 0] <= high) & (boxes[:, 1] >= low)).all(axis=1).any())
+
     def _is_post(self, row: int) -> bool:
         """Whether an end looks down from as low as anything of its structure lies."""
         if self.ends.direction[row, 2] > -_DOWN:
@@ -205,15 +221,15 @@ class _Sight:
         return bool(self.ends.point[row, 2] <= lowest + _LEVEL)
 
 
-def _vessels(given: RelateInput, roles: Roles) -> frozenset[int]:
-    """The parts of tanks and of other equipment."""
+def _parts_of(given: RelateInput, roles: Roles, types: Collection[str]) -> frozenset[int]:
+    """The parts of groups of which units of some types are made."""
     unit_of = given.vocabulary.unit_of_group
-    return frozenset(part for part, group in enumerate(roles.groups) if group and unit_of.get(group) in _VESSELS)
+    return frozenset(part for part, group in enumerate(roles.groups) if group and unit_of.get(group) in types)
 
 
-def _open(row: int, other: int, gap: float | None, ends: Ends, hollow: bool) -> Joint:
+def _open(row: int, other: int, gap: float | None, ends: Ends, hollow: bool, wall: str = "vessel") -> Joint:
     x, y, z = (float(value) for value in ends.point[row])
-    where = "it stands on the wall of the vessel" if gap is None else "it is set on the side of the line"
+    where = f"it stands on the wall of the {wall}" if gap is None else "it is set on the side of the line"
     why = (where, "it is a hollow tube" if hollow else "it is round, and not seen to be hollow")
     kind: Literal["tap", "mount"] = "mount" if gap is None else "tap"
     return Joint(

@@ -124,6 +124,12 @@ _HOLDS_YOKE = MappingProxyType(
 # How often valves of a kind have several levers: an arm with its weight, as on check and float valves. Others have
 # one (counted on generated valves: 1 of 25 ball valves has more, all check valves with a lever have).
 _SEVERAL_LEVERS = MappingProxyType({"check": 0.5, "relief": 0.15, "other": 0.4})
+# How often the stem under a lever passes the line by more than this share of the bore's radius (ours): a ball, a plug and
+# a disc turn about the middle of the bore, as good as; a clapper hangs from a shaft above it, whose lever holds a weight.
+_PASSES = 0.25
+_ABOVE = MappingProxyType({"check": 0.5, "relief": 0.05, "butterfly": 0.01, "other": 0.2})
+# A stem is this much longer than wide, and lies across the line up to this (cosine).
+_LONG, _ACROSS = 1.3, 0.3
 # A lever over a body as long as check valves are, and as no ball valve is, is this much likelier their arm (ours).
 _ARM = 4.0
 
@@ -143,6 +149,7 @@ class _Look:
         closed_by: what closes it, by the names of its parts: a ball, a disc, or None.
         yoke: whether there is a yoke among its parts, and no actuator or gearbox.
         levers: how many levers there are among its parts.
+        above: whether a lever turns about a stem that passes the line.
     """
 
     turned: str | None
@@ -155,6 +162,7 @@ class _Look:
     closed_by: str | None
     yoke: bool = False
     levers: int = 0
+    above: bool = False
 
     @property
     def says_something(self) -> bool:
@@ -205,10 +213,13 @@ def _likelihood(kind: str, look: _Look) -> float:
 
 
 def _by_parts(kind: str, look: _Look) -> float:
-    """How often a valve of a kind has what this one has: a ball or a disc, a yoke, several levers, a weight's arm."""
+    """How often a valve of a kind has what this one has: a ball or a disc, a yoke, several levers, a weight's arm, a
+    stem that passes the line.
+    """
     share = _HOLDS[look.closed_by].get(kind, 0.002) if look.closed_by else 1.0
     share *= _HOLDS_YOKE[kind] if look.yoke else 1.0
     share *= _ARM if kind == "check" and _may_be_arm(look) else 1.0
+    share *= _ABOVE.get(kind, 0.002) if look.above else 1.0
     return share * (_SEVERAL_LEVERS.get(kind, 0.04) if look.levers > 1 else 1.0)
 
 
@@ -274,9 +285,25 @@ def _look(unit: UnitParts, names: Sequence[str | None], size: int | None, parts:
         levers=named.count("lever"),
     )
     line = line_through(unit.openings)
-    return (
-        look if line is None else _in_line(look, surface_about(parts, unit.parts, *line), still and "valve body" in own)
-    )
+    if line is None:
+        return look
+    if turned == "lever" and size is not None:
+        stems = [part for part in unit.parts if names[part] == "valve stem"]
+        look = replace(look, above=any(_passes(parts, stem, *line, _PASSES * size / 2000) for stem in stems))
+    return _in_line(look, surface_about(parts, unit.parts, *line), still and "valve body" in own)
+
+
+def _passes(parts: Parts, stem: int, start: Floats, end: Floats, least: float) -> bool:
+    """Whether a stem lies across a line and passes it by more than some metres."""
+    properties = parts.properties
+    long, wide, _ = properties.obb_extents[stem]
+    if long < _LONG * wide:
+        return False
+    way, axis = (end - start) / np.linalg.norm(end - start), properties.obb_axes[stem, 0]
+    square = np.cross(way, axis)
+    if abs(float(way @ axis)) > _ACROSS:
+        return False
+    return abs(float((properties.obb_center[stem] - start) @ square)) / float(np.linalg.norm(square)) > least
 
 
 def _first_of(wanted: Iterable[str], names: Collection[str | None]) -> str | None:
