@@ -31,9 +31,7 @@ _NOZZLE = frozenset({"nozzle", "flange", "gasket"})
 _CLOSURES = frozenset({"blind flange", "pipe cap"})
 _NEAR = 0.01  # [m]; so near to a nozzle a line that joins there begins, or nearer than a quarter of its bore
 
-_BY_PLACE = (
-    "taken for a {} because one line ends at it; by its shape it may be something else that leads to the open"
-)
+_BY_PLACE = "taken for a {} because one line ends at it; by its shape it may be something else that leads to the open"
 
 _AS_DRAWN = "the plant that this drawing was written from goes on here, maybe: its own graph says how"
 

@@ -21,6 +21,7 @@ from scipy.spatial.transform import Rotation
 import fittings
 import plates
 import shapes
+import tubes
 from cadgraph.geometry.line.mouths import (
     Mouth,
     are_on_one_axis,
@@ -36,6 +37,7 @@ from cadplants import STYLES
 from cadplants.model.standards import PIPES, TEE_CENTER_TO_END
 from cadplants.parts.piping import tee
 from fittings import CAPS, MESHERS, Fitting, Outlet, X
+from piping import turned
 
 NAN = float("nan")
 
@@ -218,12 +220,15 @@ def test_an_olet_has_its_mouth_and_an_end_at_its_saddle(mesher, n):
     assert 0.097 < low.point[2] < 0.101
 
 
+NONE = np.zeros((0, 3, 3))
+
+
 def disc(x, sense=1.0, outer=0.05, inner=0.0, at=(0.0, 0.0)):
     return Disc(np.array([x, *at]), sense * X, outer, inner, 24, 1.0)
 
 
 def test_mouths_come_widest_first_and_tell_a_bore():
-    found = mouths_of([disc(0, -1, 0.04, 0.036), disc(1, 1, 0.05, 0.0), disc(2, 1, 0.03, 0.0299)])
+    found = mouths_of([disc(0, -1, 0.04, 0.036), disc(1, 1, 0.05, 0.0), disc(2, 1, 0.03, 0.0299)], NONE)
     assert [mouth.radius for mouth in found] == [0.05, 0.04, 0.03]
     np.testing.assert_array_equal([mouth.bore for mouth in found], [NAN, 0.036, NAN])
 
@@ -231,7 +236,7 @@ def test_mouths_come_widest_first_and_tell_a_bore():
 @pytest.mark.parametrize(("bolts", "left"), [(2, 4), (3, 2), (8, 2)])
 def test_three_bolts_alike_around_a_face_are_no_mouths(bolts, left):
     around = [disc(0.03, 1, 0.008, at=(0.07 * np.cos(a), 0.07 * np.sin(a))) for a in np.arange(bolts) * 0.7]
-    assert len(mouths_of([disc(0, -1, 0.1), disc(0.02, 1, 0.1), *around])) == left
+    assert len(mouths_of([disc(0, -1, 0.1), disc(0.02, 1, 0.1), *around], NONE)) == left
 
 
 @pytest.mark.parametrize(("off", "expected"), [(0.0019, True), (0.0021, False)])
@@ -289,3 +294,28 @@ def test_the_axis_behind_an_only_mouth_runs_in_the_middle_of_the_surface(shift, 
     vertices, faces = shapes.cylinder(0.05, 0.1, 48)
     mouth = Mouth(np.array([shift, 0, 0.05]), np.array([0, 0, 1.0]), 0.05, NAN)
     assert (run_inward(mouth, vertices[faces]) is not None) is found
+
+
+def flange(at, way, radius=0.11, thick=0.022):
+    """A solid disc whose front is at a point and looks that way."""
+    middle = np.asarray(at, float) - thick / 2 * np.asarray(way, float)
+    return turned(shapes.cylinder(radius, thick), middle, way)
+
+
+def test_a_bend_stuck_into_its_flanges_runs_from_front_to_front():
+    angles = np.linspace(0, np.pi / 2, 7)
+    arc = [(0.13 * (1 - np.sin(a)), 0.13 * (1 - np.cos(a)), 0) for a in angles]
+    bend = tubes.pipe([(0.15, 0, 0), *arc, (0, 0.15, 0)], 0.057, 16, caps=True)
+    mesh = fittings.merged(bend, flange((0.15, 0, 0), X), flange((0, 0.15, 0), (0, 1, 0)))
+    line = line_of(mesh)
+    assert sorted(np.round(end.direction, 6).tolist() for end in line.ends) == [[0.0, 1.0, 0.0], [1.0, 0.0, 0.0]]
+    assert [end.radius for end in line.ends] == pytest.approx([0.11, 0.11], rel=0.01)
+
+
+def test_a_branch_as_short_as_the_flanges_of_its_run_are_wide_is_one():
+    run = turned(shapes.cylinder(0.057, 0.2), 0 * X, X)
+    leg = turned(shapes.cylinder(0.057, 0.1), (0, 0.05, 0), (0, 1, 0))
+    plates_at = [flange(0.1 * X, X), flange(-0.1 * X, -X), flange((0, 0.1, 0), (0, 1, 0))]
+    line = line_of(fittings.merged(run, leg, *plates_at))
+    assert len(line.ends) == 3
+    assert len(line.junctions) == 1

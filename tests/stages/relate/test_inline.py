@@ -13,7 +13,7 @@ from cadgraph.stages.relate.belief import beliefs_of
 from cadgraph.stages.relate.inline import INLINE, THICKER, WAIST, recover_inline
 from cadgraph.stages.relate.piping import Group
 from cadgraph.stages.relate.recover import LABELLED
-from piping import PIPE, VALVE, R, ring, turned
+from piping import PIPE, VALVE, R, merged, ring, turned
 from sketch import VOCABULARY, Sketch, X
 
 SAID = {(PIPE, "pipe"): 0.6, (VALVE, "valve"): 0.1}
@@ -21,7 +21,8 @@ SAID = {(PIPE, "pipe"): 0.6, (VALVE, "valve"): 0.1}
 
 def narrow(reach, waist, **said):
     """The piping of a piece that narrows in its middle, the first one, between two pipes."""
-    piping = between(cone((0, 0, 0), (reach, 0, 0), R, R), reach=reach, **said).piping()
+    cones = tubes.pipe([(0, 0, 0), (reach / 2, 0, 0), (reach, 0, 0)], [R, waist * R, R], 24, caps=True)
+    piping = between(cones, reach=reach, **said).piping()
     points = np.linspace((0, 0, 0), (reach, 0, 0), 3)
     branch = Branch(points, R * np.array([1, waist, 1]), np.full(3, np.nan))
     return replace(piping, lines={**piping.lines, 0: replace(piping.lines[0], branches=(branch,))})
@@ -61,6 +62,13 @@ def test_a_mesh_that_narrows_is_a_valve():
     assert valves(between(tubes.pipe(stations, R * (0.5 + np.abs(stations[:, 0] - 0.1) / 0.2), 24, caps=True))) == [
         (0,)
     ]
+
+
+def test_a_pipe_with_its_flanges_in_one_mesh_is_no_valve():
+    thin, thick = R / 2, 0.02
+    plates = [turned(shapes.cylinder(R, thick), (x, 0, 0), X) for x in (thick / 2, 0.2 - thick / 2)]
+    spool = merged(turned(shapes.cylinder(thin, 0.2), (0.1, 0, 0), X), *plates)
+    assert valves(between(spool)) == []
 
 
 @pytest.mark.parametrize(("valve", "found"), [(0.1, [(0,)]), (0.005, [])])

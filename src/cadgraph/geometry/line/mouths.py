@@ -38,6 +38,8 @@ _COVERED, _WITHIN = 0.9, 1.15
 # A mouth is a flange's, or a socket's, where it is wider than the body by this factor; it ends within this share of
 # its radius.
 _RIM, _RIM_DEPTH = 1.08, 0.6
+# A branch of a run may end within it where it is this wide against the run: flanges of short tees.
+_LIKE_RUN = 0.9
 # The middle of the surface behind an only mouth lies within this share of its radius from its axis.
 _OFF_MIDDLE = 0.2
 _LEAST_WAY = 1e-5  # from mouth to mouth or junction [m]
@@ -85,19 +87,57 @@ def turned_outward(discs: Sequence[Disc], triangles: Floats) -> tuple[Disc, ...]
     return tuple(turned)
 
 
-def mouths_of(ports: Sequence[Disc]) -> list[Mouth]:
-    """The mouths of a shape, the widest first; bolts that stand around one are none.
+def mouths_of(ports: Sequence[Disc], triangles: Floats) -> list[Mouth]:
+    """The mouths of a shape, the widest first; bolts that stand around one are none, nor are the backs of flanges.
 
     Args:
         ports: the outermost round faces and rims along each axis of the shape.
+        triangles: ``(n, 3, 3)`` of the shape [m].
     """
     found = []
     for port in sorted(ports, key=lambda disc: (-disc.outer, *disc.center.tolist())):
         hole = _LEAST_BORE * port.outer < port.inner < _MOST_BORE * port.outer
         found.append(Mouth(port.center, port.normal, port.outer, port.inner if hole else float("nan")))
-    if len(found) < 4:
-        return found
-    return [mouth for mouth in found if not _stands_around(mouth, found)]
+    found = _without_backs(found, triangles)
+    return [mouth for mouth in found if len(found) < 4 or not _stands_around(mouth, found)]
+
+
+def _without_backs(mouths: list[Mouth], triangles: Floats) -> list[Mouth]:
+    """The mouths but for the backs of flanges; a lid has something on one of its faces, too, but a bend has a flange at
+    both of its ends.
+    """
+    if len(mouths) < 4:
+        return mouths
+    backs = {k for k, mouth in enumerate(mouths) if _is_back(mouth, mouths, triangles)}
+    return [mouth for k, mouth in enumerate(mouths) if len(backs) < 2 or k not in backs]
+
+
+def _is_back(mouth: Mouth, mouths: Sequence[Mouth], triangles: Floats) -> bool:
+    """Whether a face is the back of a plate whose front is a mouth: of a flange that a bend is merely stuck into."""
+    fronts = [
+        other
+        for other in mouths
+        if float(other.direction @ mouth.direction) < -_PARALLEL
+        and _off_axis(mouth, other) <= _ONE_AXIS * mouth.radius
+        and abs(other.radius - mouth.radius) <= _ONE_AXIS * mouth.radius
+        and 0 < float((other.point - mouth.point) @ other.direction) <= _RIM_DEPTH * mouth.radius
+    ]
+    return bool(fronts) and _looks_at(mouth, triangles) and not any(_looks_at(front, triangles) for front in fronts)
+
+
+def _looks_at(mouth: Mouth, triangles: Floats) -> bool:
+    """Whether a face has surface of its own shape ahead of its middle."""
+    edges, sides = triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
+    across = np.cross(mouth.direction, sides)
+    det = (edges * across).sum(axis=1)
+    flat = np.abs(det) <= 1e-18
+    offset = mouth.point - triangles[:, 0]
+    u = (offset * across).sum(axis=1) / np.where(flat, 1.0, det)
+    turned = np.cross(offset, edges)
+    v = turned @ mouth.direction / np.where(flat, 1.0, det)
+    ahead = (turned * sides).sum(axis=1) / np.where(flat, 1.0, det)
+    inside = (u >= -1e-9) & (v >= -1e-9) & (u + v <= 1 + 1e-9)
+    return bool((inside & ~flat & (ahead > _LEVEL * mouth.radius)).any())
 
 
 def _stands_around(mouth: Mouth, mouths: Sequence[Mouth]) -> bool:
@@ -162,7 +202,7 @@ def join_mouths(mouths: Sequence[Mouth], triangles: Floats) -> Centreline | None
     """
     if len(mouths) < 2:
         return None
-    paths = _two(mouths[0], mouths[1]) if len(mouths) == 2 else _many(mouths)
+    paths = _two(mouths[0], mouths[1]) if len(mouths) == 2 else _many(mouths, triangles)
     if paths is None or any(np.linalg.norm(path.points[-1] - path.points[0]) < _LEAST_WAY for path in paths):
         return None
     middles, areas, normals = _measure(triangles)
@@ -257,7 +297,7 @@ def _nearest(a: Mouth, b: Mouth) -> tuple[float, float, float]:
     return s, t, float(np.linalg.norm(gap))
 
 
-def _many(mouths: Sequence[Mouth]) -> list[_Path] | None:
+def _many(mouths: Sequence[Mouth], triangles: Floats) -> list[_Path] | None:
     """A run with its branches, or a star where no two mouths are opposite."""
     runs = [
         (min(a.radius, b.radius), float(np.linalg.norm(a.point - b.point)), -i, -j)
@@ -270,7 +310,7 @@ def _many(mouths: Sequence[Mouth]) -> list[_Path] | None:
     # Of runs of about one size the longest.
     wide = max(run[0] for run in runs)
     _, _, i, j = max((run for run in runs if run[0] >= 0.9 * wide), key=lambda run: run[1:])
-    return _run_with_branches(mouths, -i, -j)
+    return _run_with_branches(mouths, -i, -j, triangles)
 
 
 def _are_opposite(a: Mouth, b: Mouth) -> bool:
@@ -295,13 +335,13 @@ def _star(mouths: Sequence[Mouth]) -> list[_Path] | None:
     return [_Path(np.stack([mouth.point, middle]), k, -1) for k, mouth in enumerate(mouths)]
 
 
-def _run_with_branches(mouths: Sequence[Mouth], first: int, last: int) -> list[_Path] | None:
+def _run_with_branches(mouths: Sequence[Mouth], first: int, last: int, triangles: Floats) -> list[_Path] | None:
     a, b = mouths[first], mouths[last]
     length = float(np.linalg.norm(b.point - a.point))
     along = (b.point - a.point) / length
     feet = []
     for k, mouth in enumerate(mouths):
-        if k in (first, last) or _is_within(mouth, a, b):
+        if k in (first, last) or (_is_within(mouth, a, b) and not _is_flanged(mouth, a, b, triangles)):
             continue
         foot = _foot(mouth, a.point, along, length, max(a.radius, b.radius))
         if foot is None:
@@ -337,6 +377,11 @@ def _is_within(mouth: Mouth, a: Mouth, b: Mouth) -> bool:
     off = float(np.linalg.norm(mouth.point - a.point - s * along))
     inner = min(a.radius, b.radius)
     return bool(_LEVEL * inner < s < length - _LEVEL * inner and off < (1 - _LEVEL) * inner)
+
+
+def _is_flanged(mouth: Mouth, a: Mouth, b: Mouth, triangles: Floats) -> bool:
+    """Whether a face within a run is the flange of a branch as short as the flanges of the run are wide."""
+    return mouth.radius >= _LIKE_RUN * min(a.radius, b.radius) and not _looks_at(mouth, triangles)
 
 
 def _foot(mouth: Mouth, start: Floats, along: Floats, length: float, radius: float) -> float | None:

@@ -126,7 +126,7 @@ def _outward(known: ShapeAnalysis, shape: int, triangles: Floats) -> Facts:
 
 def _explained(facts: Facts, flat: bool, triangles: Floats) -> Centreline | None:
     """The line of what is flat and round, and of what its mouths explain."""
-    mouths = mouths_of(facts.ports)
+    mouths = mouths_of(facts.ports, triangles)
     line = None
     if flat and (len(mouths) < 2 or are_on_one_axis(mouths)):
         line = axis_line(facts)
@@ -143,7 +143,7 @@ def _triangles(scene: Scene, properties: Properties, mesh: int) -> Floats:
 
 def _fitted(facts: Facts, traced: Centreline | NotTube, triangles: Floats) -> Centreline | None:
     """A swept line that ends at the mouths; of what can't be swept the axis from face to face."""
-    mouths = mouths_of(facts.ports)
+    mouths = mouths_of(facts.ports, triangles)
     if isinstance(traced, Centreline) and traced.ends:
         fitted = fit_ends(traced, mouths, triangles)
         if fitted is not None:

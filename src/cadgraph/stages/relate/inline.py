@@ -10,6 +10,7 @@ import numpy as np
 from cadgraph.geometry.line.centreline import Centreline
 from cadgraph.model.scene import Floats
 from cadgraph.stages.relate.belief import Beliefs
+from cadgraph.stages.relate.body_shape import surface_about
 from cadgraph.stages.relate.evidence import Curve, Term, tell_terms
 from cadgraph.stages.relate.joint import Facing
 from cadgraph.stages.relate.line import is_disc
@@ -37,6 +38,9 @@ _LEAST = 1e-3  # no probability counts for less
 _LONGEST = 14.0  # radii that a valve is long at most
 _ON_AXIS, _ALIGNED = 0.35, -0.95  # as share of the radius; cosine between the outward directions
 _NARROW = 0.7  # the ends of two cones that meet are narrower than their other ends by this factor
+# A piece as narrow as at its narrowest for this share of its length (within this factor, in so many slices) is a
+# pipe with its flanges in one mesh: cones meet at a point.
+_SPOOL, _EVEN, _SLICES = 0.5, 1.08, 12
 _MOST_PLATES = 5  # flanges and gaskets at an end
 _THIN = 0.7  # a stem is thinner than the body by this factor
 
@@ -154,7 +158,19 @@ def _straight(piping: Piping, part: int, line: Centreline) -> _Piece | None:
     if piece is None:
         return None
     thicker = piece.thicker if is_disc(line) else _thicker(piping, piece)
-    return replace(piece, waist=_narrowest(line, piping, rows), thicker=thicker)
+    waist = _narrowest(line, piping, rows)
+    narrows = float(WAIST(waist)) > 0 and not _is_spool(piping, piece)
+    return replace(piece, waist=waist if narrows else 1.0, thicker=thicker)
+
+
+def _is_spool(piping: Piping, piece: _Piece) -> bool:
+    """Whether a piece is as narrow as at its narrowest for most of its length, as a pipe between its flanges is."""
+    start, end = (piping.joints.ends.point[row] for row in piece.rows)
+    surface = surface_about(piping.given.parts, piece.parts, start, end)
+    slices = np.floor((surface.along + 0.5) * _SLICES)
+    heights = surface.height
+    outer = [heights[slices == k].max() for k in range(_SLICES) if (slices == k).any()]
+    return bool(np.sum(outer <= _EVEN * np.min(outer)) >= _SPOOL * len(outer)) if outer else False
 
 
 def _thicker(piping: Piping, piece: _Piece) -> float:

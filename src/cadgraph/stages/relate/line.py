@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from cadgraph.geometry.line.centreline import Centreline
 
-__all__ = ["is_disc", "is_neck", "is_plain_tube", "is_steady", "is_straight"]
+__all__ = ["is_disc", "is_fitting", "is_neck", "is_plain_tube", "is_steady", "is_straight"]
 
 # The radius of a plain tube is as much at both of its ends within this share, and changes by less than the other one
 # between them: bends of few sides are narrower at their mitres.
@@ -31,6 +31,11 @@ def is_steady(line: Centreline) -> bool:
     first, last = sorted((float(line.ends[0].radius), float(line.ends[1].radius)))
     even = radius.max() <= (1 + _UNEVEN) * radius.min() and last <= (1 + _STEADY) * first
     return bool(even and line.share > 0.9)
+
+
+def is_fitting(line: Centreline) -> bool:
+    """Whether a line bends or branches between ends that are all open to others, along all of its surface."""
+    return line.share > 0.9 and (len(line.ends) > 2 or (len(line.ends) == 2 and not is_straight(line)))
 
 
 def is_neck(line: Centreline) -> bool:

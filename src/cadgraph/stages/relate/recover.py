@@ -7,6 +7,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from cadgraph.model.scene import Floats
+from cadgraph.stages.relate.attach import flat_contacts
 from cadgraph.stages.relate.belief import Beliefs, beliefs_of
 from cadgraph.stages.relate.body import Arrangement, Body, arrangement_of, find_bodies, other_groups
 from cadgraph.stages.relate.evidence import Curve, Term, tell_terms
@@ -70,6 +72,7 @@ _LEAST = 1e-3  # no probability counts for less
 _MOSTLY_NAMED = 0.5  # below this share of parts that only the labeler has named what has no name is no device
 _STANDING = 0.5  # log-odds that what has the ends of lines at it carries them
 _WIDEST_GAUGE = 0.4  # m
+_ON_AXIS, _SQUARE_ON = 0.35, 0.95  # of a flange that a line heads for: share of its radius, cosine
 _FLAT, _AS_WIDE = 0.6, 0.85  # a lid's thickness as share of its radius, and its radius as share of the end's
 # Names of connectors that two ends on one axis of a body contradict: each would have a line of its own there.
 _BENT = frozenset({"cross", "tee", "elbow", "pipe cap", "blind flange"})
@@ -91,7 +94,7 @@ def recover_units(piping: Piping) -> Piping:
     ends, bodies = find_bodies(piping, beliefs)
     mounted = frozenset(piping.mounted)
     # Rows of ends hold for the piping that they were found in: all is looked at before anything changes.
-    for sight in [_look_at(piping, body, ends, mounted) for body in bodies]:
+    for sight in [_look_at(piping, beliefs, body, ends, mounted) for body in bodies]:
         piping = _taken(piping, sight.body, *_type_of(piping, beliefs, sight))
     return take_feet(take_meters(piping, beliefs), beliefs)
 
@@ -124,18 +127,50 @@ class _Sight:
     mounted: Collection[int]
 
 
-def _look_at(piping: Piping, body: Body, ends: Ends, mounted: Collection[int]) -> _Sight:
+def _look_at(piping: Piping, beliefs: Beliefs, body: Body, ends: Ends, mounted: Collection[int]) -> _Sight:
     rows = [mount.row for mount in body.mounts]
     length = _longest(piping, body.parts)
+    between = len(rows) == 1 and _is_between(piping, beliefs, body, ends, rows[0])
     return _Sight(
         body=body,
-        arrangement=arrangement_of(ends, rows),
+        arrangement="aligned" if between else arrangement_of(ends, rows),
         length=length,
         pipes=length / (2 * float(ends.radius[rows].max())),
         slim=_slimness(piping, body, ends, rows),
         closes=_is_lid(piping, body, ends, rows),
         mounted=mounted,
     )
+
+
+def _is_between(piping: Piping, beliefs: Beliefs, body: Body, ends: Ends, row: int) -> bool:
+    """Whether a body is flanged to a unit on the axis of the line that ends at it, and is rather something else than
+    another piece of that unit: a valve at a pump, of which nobody is sure.
+    """
+    met = set(_flanged_to(piping, body, ends, row))
+    if len(met) != 1:
+        return False
+    kinds = sorted(set(piping.given.vocabulary.unit_of_group.values()))
+    said = {kind: float(beliefs.of_groups(_groups_of(piping, kind))[list(body.parts)].mean()) for kind in kinds}
+    return max(kinds, key=lambda kind: said[kind]) not in met
+
+
+def _flanged_to(piping: Piping, body: Body, ends: Ends, row: int) -> Iterator[str]:
+    """The types of the units that a body is flanged to on the axis of an end, on its other side."""
+    given = piping.given
+    owner = {part: group.unit_type for group in piping.groups for part in group.parts if part in body.near}
+    pairs = [(min(a, b), max(a, b)) for a in body.parts for b in owner]
+    for (a, b), (middle, normal) in flat_contacts(given.parts, given.contacts, pairs, given.config.cluster.eps).items():
+        if _heads_for(ends, row, middle, normal):
+            yield owner.get(a) or owner[b]
+
+
+def _heads_for(ends: Ends, row: int, middle: Floats, normal: Floats) -> bool:
+    """Whether an end looks at a flat face, straight on."""
+    axis, offset = ends.direction[row], middle - ends.point[row]
+    ahead = float(offset @ axis)
+    aside = float(np.linalg.norm(offset - ahead * axis))
+    square = abs(float(normal @ axis)) >= _SQUARE_ON
+    return ahead > 0 and aside <= _ON_AXIS * float(ends.radius[row]) and square
 
 
 def _type_of(piping: Piping, beliefs: Beliefs, sight: _Sight) -> tuple[str, Recovered]:

@@ -18,7 +18,7 @@ from cadgraph.model.scene import Floats
 from cadgraph.stages.relate.attach import facings_of
 from cadgraph.stages.relate.decide import decide_joints
 from cadgraph.stages.relate.joint import Ends, find_tap, gather_ends
-from cadgraph.stages.relate.line import is_disc, is_neck, is_plain_tube, is_steady, is_straight
+from cadgraph.stages.relate.line import is_disc, is_fitting, is_neck, is_plain_tube, is_steady, is_straight
 from cadgraph.stages.relate.offer import Surroundings, offer_faces
 from cadgraph.stages.relate.piping import Group, Piping, RelateInput
 from cadgraph.stages.relate.role import Roles, likely_lines
@@ -34,6 +34,9 @@ _Value = TypeVar("_Value")
 _RATIO, _OWN_RATIO = 0.3, 0.9
 # A short cylinder of a pipe's own size is a piece of it where the labeler is less sure than this of the device.
 _SAME_RATIO, _UNSURE = 0.97, 0.9
+# What bends or branches between its mouths, all of its surface along that line, is a fitting where the labeler is less
+# sure than this of a device: an angle or three-way valve has a bonnet, a gauge its case.
+_UNSURE_OF_FITTING = 0.7
 _WITH_PIPES = frozenset({"valve", "pump"})
 _IN_LINE = frozenset({"flow meter", "sight glass"})  # devices that stand in a line and may be shaped like a piece of it
 _PLATES = frozenset({"flange", "blind flange", "gasket"})
@@ -282,9 +285,15 @@ def _single_ratio(given: RelateInput, roles: Roles, part: int, line: Centreline)
     said = label is not None and label is not given.opinions[part]
     if (said and (part in roles.backed or _may_be_device(line, roles.doubtful))) or _is_sure_in_line(label):
         return None
-    if is_plain_tube(line):
+    if _is_pipe(label, line):
         return _RATIO if roles.doubtful else _OWN_RATIO
     return _RATIO if roles.doubtful and is_disc(line) else None
+
+
+def _is_pipe(label: Label | None, line: Centreline) -> bool:
+    """Whether a part has the line of a plain tube, or that of a fitting where its label is not sure of a device."""
+    unsure = label is not None and label.confidence < _UNSURE_OF_FITTING
+    return is_plain_tube(line) or (unsure and is_fitting(line))
 
 
 def _is_sure_in_line(label: Label | None) -> bool:

@@ -124,8 +124,9 @@ _HOLDS_YOKE = MappingProxyType(
 # How often valves of a kind have several levers: an arm with its weight, as on check and float valves. Others have
 # one (counted on generated valves: 1 of 25 ball valves has more, all check valves with a lever have).
 _SEVERAL_LEVERS = MappingProxyType({"check": 0.5, "relief": 0.15, "other": 0.4})
-# How often the stem under a lever passes the line by more than this share of the bore's radius (ours): a ball, a plug and
-# a disc turn about the middle of the bore, as good as; a clapper hangs from a shaft above it, whose lever holds a weight.
+# How often the stem under a lever passes the line by more than this share of the bore's radius (ours): a ball, a plug
+# and a disc turn about the middle of the bore, as good as; a clapper hangs from a shaft above it, whose lever holds a
+# weight.
 _PASSES = 0.25
 _ABOVE = MappingProxyType({"check": 0.5, "relief": 0.05, "butterfly": 0.01, "other": 0.2})
 # A stem is this much longer than wide, and lies across the line up to this (cosine).
@@ -287,10 +288,18 @@ def _look(unit: UnitParts, names: Sequence[str | None], size: int | None, parts:
     line = line_through(unit.openings)
     if line is None:
         return look
-    if turned == "lever" and size is not None:
-        stems = [part for part in unit.parts if names[part] == "valve stem"]
-        look = replace(look, above=any(_passes(parts, stem, *line, _PASSES * size / 2000) for stem in stems))
+    look = replace(look, above=turned == "lever" and _stem_passes(unit, names, parts, line, size))
     return _in_line(look, surface_about(parts, unit.parts, *line), still and "valve body" in own)
+
+
+def _stem_passes(
+    unit: UnitParts, names: Sequence[str | None], parts: Parts, line: tuple[Floats, Floats], size: int | None
+) -> bool:
+    """Whether a stem of a valve passes the line through it, by more than balls and discs are off the middle."""
+    if size is None:
+        return False
+    stems = [part for part in unit.parts if names[part] == "valve stem"]
+    return any(_passes(parts, stem, *line, _PASSES * size / 2000) for stem in stems)
 
 
 def _passes(parts: Parts, stem: int, start: Floats, end: Floats, least: float) -> bool:
