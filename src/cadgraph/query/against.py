@@ -22,6 +22,7 @@ __all__ = ["Against", "is_gauge_by_place", "standing_against"]
 _STEPS = 3  # so many loose parts at most lead from a piece to what stands against it
 _NEAR = 0.005  # [m]; how far beyond its own radius an end lies from what it stands against at most
 _DEVICES = frozenset({"valve", "pump"})
+_PIPE = "pipe"
 _BODIES = frozenset({None, "valve", "valve body", "pump", "pump casing"})
 
 
@@ -32,7 +33,7 @@ class Against:
     Args:
         inner: id of the part of the piece.
         over: ids of the loose parts that lie between, maybe none.
-        place: id of the unit or end outside; None where a part that is likely a valve or a pump is in none.
+        place: id of the unit or end outside; None where a part that is likely a valve, a pump or a pipe is in none.
         part: id of the part of it.
     """
 
@@ -109,7 +110,8 @@ class _Search:
                     if not self._is_loose(other):
                         continue
                     seen.add(other.id)
-                    if self._is_device(other):
+                    # A pipe that stands against the piece itself has a joint that was judged.
+                    if self._is_device(other) or (over and other.label is not None and other.label.name == _PIPE):
                         yield Against(inner, over, None, other.id)
                     elif len(over) < _STEPS:
                         onward.append((other.id, inner, (*over, other.id)))

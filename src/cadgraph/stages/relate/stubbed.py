@@ -16,6 +16,7 @@ import numpy as np
 from cadgraph.geometry.line.centreline import Centreline
 from cadgraph.model.parts import Joint
 from cadgraph.model.vocabulary import FASTENERS
+from cadgraph.stages.relate.belief import beliefs_of
 from cadgraph.stages.relate.cover import cover_of
 from cadgraph.stages.relate.joint import Ends, Tap, find_tap, gather_ends
 from cadgraph.stages.relate.line import is_steady
@@ -29,6 +30,8 @@ _HOLLOW = 0.3  # least bore of a tube as share of its radius
 _DOWN, _LEVEL = 0.94, 0.05  # a post: how upright it is, and within what height of the lowest part it ends [m]
 # How sure it is that they join (ours): of a hollow tube that may be a post, and of a solid one.
 _TUBE, _SOLID = 0.3, 0.2
+# What is no plain tube must be as likely as this to be piping (the labeler's probability).
+_LIKELY = 0.4
 _VESSELS, _PUMPS = frozenset({"tank", "equipment"}), frozenset({"pump"})
 
 
@@ -82,18 +85,36 @@ def find_stubbed(
         traced: line of each part that has one.
         lines: of the parts that carry one already.
     """
-    tubes = _tubes(candidates, traced, lines)
-    if not tubes:
+    tubes, fittings = _tubes(candidates, traced, lines), _fittings(given, candidates, traced, lines)
+    if not tubes and not fittings:
         return Stubbed({})
     vessels, pumps = _parts_of(given, roles, _VESSELS), _parts_of(given, roles, _PUMPS)
-    sight = _Sight(given, gather_ends({part: traced[part] for part in tubes}), lines, vessels, pumps)
+    ends = gather_ends({part: traced[part] for part in (*tubes, *fittings)})
+    sight = _Sight(given, ends, lines, vessels, pumps)
     found = {part: traced[part] for part in tubes if sight.is_branch(part)}
-    return Stubbed(found, tuple(joint for part in tubes if part not in found for joint in sight.open_joints(part)))
+    left = [part for part in (*tubes, *fittings) if part not in found]
+    return Stubbed(found, tuple(joint for part in left for joint in sight.open_joints(part)))
 
 
 def _tubes(candidates: Sequence[int], traced: Mapping[int, Centreline], lines: Collection[int]) -> list[int]:
     """The candidates with a line of one radius that is not one of the network already."""
     return [part for part in candidates if part in traced and part not in lines and is_steady(traced[part])]
+
+
+def _fittings(
+    given: RelateInput, candidates: Sequence[int], traced: Mapping[int, Centreline], lines: Collection[int]
+) -> list[int]:
+    """The candidates with a line of several radii that the labeler finds likely to be piping, without being sure: a
+    conical socket on the side of a line, with a branch that nobody is sure of either.
+    """
+    likely = beliefs_of(given.labels, given.probabilities, given.vocabulary).of_groups(
+        given.vocabulary.connector_groups
+    )
+    return [
+        part
+        for part in candidates
+        if part in traced and part not in lines and not is_steady(traced[part]) and likely[part] >= _LIKELY
+    ]
 
 
 @dataclass(frozen=True, eq=False)
