@@ -1,6 +1,8 @@
 """What a crew finds tile by tile is what one process finds, to the byte."""
 
+import errno
 import json
+import os
 import sys
 import time
 
@@ -11,12 +13,14 @@ from hypothesis import strategies as st
 
 import cadgraph
 import killed_tasks
+from cadgraph.config import Config
 from cadgraph.distribute.crew import TileCrew
 from cadgraph.distribute.cut import cut_rows, cut_tiles, own_pairs
 from cadgraph.distribute.hands import Failure
 from cadgraph.distribute.packing import pack_facts, unpack_facts
 from cadgraph.distribute.processes import Processes
 from cadgraph.distribute.site import FOLDER
+from cadgraph.errors import OutputError
 from cadgraph.geometry.contact.broad import near_boxes
 from cadgraph.geometry.mesh.properties import measure
 from cadgraph.geometry.shape.analysis import measure_shapes
@@ -114,6 +118,71 @@ def test_a_run_that_was_stopped_goes_on_where_it_was(plant, tmp_path):
     again = Here()
     assert _bytes(cadgraph.build(scene, crew=TileCrew(again, tmp_path, 5))) == whole
     assert again.calls == 2
+
+
+def spoilt_zeros(file):
+    """The last quarter of a file is zeros, as where its last blocks never reached the disk."""
+    content = file.read_bytes()
+    kept = len(content) * 3 // 4
+    file.write_bytes(content[:kept] + bytes(len(content) - kept))
+
+
+def spoilt_short(file):
+    file.write_bytes(file.read_bytes()[:200])
+
+
+def spoilt_gone(file):
+    file.unlink()
+
+
+def spoilt_empty(file):
+    file.write_bytes(b"")
+
+
+@pytest.mark.parametrize("spoil", [spoilt_zeros, spoilt_short, spoilt_gone, spoilt_empty])
+@pytest.mark.parametrize("name", ["vertices.npy", "face_offsets.npy", "done"])
+def test_what_tasks_read_is_written_anew_where_a_crash_spoilt_it(plant, tmp_path, spoil, name):
+    scene, _ = plant
+    measured = measure(scene)
+    crew = TileCrew(Here(), tmp_path, 5)
+    first = crew.contacts(scene, measured, 0.01)
+    (file,) = tmp_path.glob(f"scene-*/{name}")
+    content = file.read_bytes()
+    spoil(file)
+    for result in tmp_path.rglob("result-*.npz"):
+        result.unlink()
+    again = crew.contacts(scene, measured, 0.01)
+    assert again.distance.tobytes() == first.distance.tobytes()
+    assert again.pairs.tobytes() == first.pairs.tobytes()
+    assert file.read_bytes() == content
+
+
+def test_what_tasks_read_stays_where_it_is_whole(plant, tmp_path):
+    scene, _ = plant
+    measured = measure(scene)
+    crew = TileCrew(Here(), tmp_path, 5)
+    crew.contacts(scene, measured, 0.01)
+    (file,) = tmp_path.glob("scene-*/vertices.npy")
+    before = file.stat()
+    crew.contacts(scene, measured, 0.01)
+    assert (file.stat().st_ino, file.stat().st_mtime_ns) == (before.st_ino, before.st_mtime_ns)
+
+
+class Full:
+    """A file on a disk that has no more room."""
+
+    def __init__(self, *_):
+        self.write = self._refuse
+
+    def _refuse(self, _):
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+
+def test_a_full_disk_is_said_and_nothing_is_left(tmp_path, monkeypatch):
+    monkeypatch.setattr("cadgraph._io.arrays.SimpleNamespace", lambda write: Full())
+    with pytest.raises(OutputError, match=r"vertices\.npy: can't be written \(No space left on device\)"):
+        run(DEMO_SCENE, tmp_path / "out", Config().replace({"load.isolate": False}), report=False, tiles=4)
+    assert not (tmp_path / "out").exists()
 
 
 @pytest.mark.parametrize(("count", "anew"), [(3, False), (64, True)])

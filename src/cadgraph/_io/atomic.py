@@ -36,7 +36,7 @@ def replacing(target: str | Path, durable: bool = False) -> Iterator[Path]:
         there.parent.mkdir(parents=True, exist_ok=True)
         beside = _make_beside(there, final)
     except OSError as error:
-        raise OutputError(f"{final}: can't be written ({error.strerror}); choose another output folder") from error
+        raise OutputError(f"{final}: can't be written ({error.strerror or error}); choose another output folder") from error
     try:
         yield beside
         with suppress(FileNotFoundError):
@@ -45,7 +45,7 @@ def replacing(target: str | Path, durable: bool = False) -> Iterator[Path]:
             _flush(beside)
         beside.replace(there)
     except OSError as error:
-        raise OutputError(f"{final}: can't be written ({error.strerror}); choose another output folder") from error
+        raise OutputError(f"{final}: can't be written ({error.strerror or error}); choose another output folder") from error
     finally:
         beside.unlink(missing_ok=True)
     if durable:
@@ -91,7 +91,7 @@ def flush_folder(file: Path) -> None:
         # Some shares flush files, but no folders; there is nothing better to be had.
         if error.errno not in (errno.EINVAL, errno.ENOTSUP, errno.EBADF, errno.ENOSYS, errno.EACCES):
             raise OutputError(
-                f"{file}: whether it stays written is not sure ({error.strerror}); look after the disk"
+                f"{file}: whether it stays written is not sure ({error.strerror or error}); look after the disk"
             ) from error
 
 
@@ -126,5 +126,5 @@ def ensure_writable(folder: str | Path) -> Path:
             file.flush()
             os.fsync(file.fileno())
     except OSError as error:
-        raise OutputError(f"{path}: can't write there ({error.strerror}); choose another output folder") from error
+        raise OutputError(f"{path}: can't write there ({error.strerror or error}); choose another output folder") from error
     return path

@@ -108,7 +108,7 @@ class TileCrew:
         write_atomically(self._folder / "README.txt", _README)
         input_digest = digest_of(arrays)
         home = self._folder / f"scene-{input_digest}"
-        save_arrays(home, arrays)
+        save_arrays(home, arrays, input_digest)
         return home, self._folder / f"{name}-{digest_of({}, cadgraph.__version__, name, input_digest, settings)}"
 
     def _all(
