@@ -6,6 +6,7 @@ import errno
 import os
 import secrets
 import stat
+import sys
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
@@ -14,7 +15,7 @@ from pathlib import Path
 from cadgraph._io.staging import staged_path
 from cadgraph.errors import OutputError
 
-__all__ = ["ensure_writable", "flush_folder", "replacing", "write_atomically"]
+__all__ = ["ensure_writable", "flush", "flush_folder", "replacing", "write_atomically"]
 
 _TRIED = 1 << 16  # bytes: more than a file system keeps beside a name
 
@@ -42,7 +43,7 @@ def replacing(target: str | Path, durable: bool = False) -> Iterator[Path]:
         with suppress(FileNotFoundError):
             beside.chmod(stat.S_IMODE(final.stat().st_mode))
         if durable:
-            _flush(beside)
+            flush(beside)
         beside.replace(there)
     except OSError as error:
         raise OutputError(f"{final}: can't be written ({error.strerror or error}); choose another output folder") from error
@@ -67,9 +68,14 @@ def write_atomically(target: str | Path, content: str | bytes, durable: bool = F
         beside.write_bytes(content.encode("utf-8") if isinstance(content, str) else content)
 
 
-def _flush(file: Path) -> None:
-    """Waits until what was written to a file is on the disk."""
-    with file.open("rb+") as opened:
+def flush(file: Path) -> None:
+    """Waits until what was written to a file is on the disk.
+
+    Raises:
+        OSError: the disk reports that it couldn't.
+    """
+    # Windows flushes only what may be written to; elsewhere the file may be one that must not.
+    with file.open("rb+" if sys.platform == "win32" else "rb") as opened:
         os.fsync(opened.fileno())
 
 

@@ -15,11 +15,11 @@ import os
 import shutil
 import sys
 import time
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from cadgraph._io.atomic import flush_folder
+from cadgraph._io.atomic import flush, flush_folder
 from cadgraph._io.digest import sha256_of
 from cadgraph._io.folder_lock import holding
 from cadgraph._io.manifest import CORRECTIONS, GRAPH_FILE, MANIFEST, RESULTS, Entry, Manifest, manifest_in
@@ -78,12 +78,13 @@ class NewResults:
         try:
             if manifest is not None:
                 (self._next / MANIFEST).write_bytes(manifest.to_bytes())
+            _flush(self._next, [*staged, *([MANIFEST] if manifest is not None else [])])
             _patiently(self._next, self._folder / READY)
         except OSError as error:
             raise OutputError(f"{self._folder}: can't be written ({error.strerror}); nothing was changed") from error
-        if CORRECTIONS in staged:
-            flush_folder(self._folder / READY)
+        flush_folder(self._folder / READY)
         _move_in(self._folder)
+        _flush_names(self._folder, staged)
         self._former = _manifest_if_whole(self._folder)
         self._former_graph = self._former.graph if self._former is not None else _digest(self._folder / GRAPH_FILE)
         self._earlier.clear()
@@ -229,6 +230,18 @@ def _check_place(place: Path) -> None:
         raise OutputError(f"{above}: not a folder but a file; choose another output folder")
     if not os.access(above, os.W_OK):
         raise OutputError(f"{above}: can't write there (Permission denied); choose another output folder")
+
+
+def _flush(folder: Path, names: Sequence[str]) -> None:
+    """Waits until files and their names are on the disk, so that no loss of power takes them once they count."""
+    for name in names:
+        flush(folder / name)
+    _flush_names(folder, names)
+
+
+def _flush_names(folder: Path, names: Sequence[str]) -> None:
+    for file in {path.parent: path for path in (folder / name for name in names)}.values():
+        flush_folder(file)
 
 
 def _replace(source: Path, target: Path) -> None:
