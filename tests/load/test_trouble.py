@@ -47,7 +47,7 @@ def test_what_the_machine_lacks_is_no_fault_of_the_file(tmp_path, monkeypatch, b
 @pytest.mark.skipif(sys.platform == "win32", reason="has no such limit")
 def test_a_limit_on_the_size_of_files_is_told(tmp_path, monkeypatch):
     body = "import resource; resource.setrlimit(resource.RLIMIT_FSIZE, (9, 9)); raise LoadError('a.usd: too much said')"
-    with pytest.raises(LoadError, match="larger than a file may be here; .*ulimit"):
+    with pytest.raises(LoadError, match=r"larger than a file may be here; .*ulimit"):
         read_isolated(loader(tmp_path, monkeypatch, body), tmp_path / "a.usd", "a.usd", LoadConfig())
 
 

@@ -37,7 +37,9 @@ def replacing(target: str | Path, durable: bool = False) -> Iterator[Path]:
         there.parent.mkdir(parents=True, exist_ok=True)
         beside = _make_beside(there, final)
     except OSError as error:
-        raise OutputError(f"{final}: can't be written ({error.strerror or error}); choose another output folder") from error
+        raise OutputError(
+            f"{final}: can't be written ({error.strerror or error}); choose another output folder"
+        ) from error
     try:
         yield beside
         with suppress(FileNotFoundError):
@@ -46,7 +48,9 @@ def replacing(target: str | Path, durable: bool = False) -> Iterator[Path]:
             flush(beside)
         beside.replace(there)
     except OSError as error:
-        raise OutputError(f"{final}: can't be written ({error.strerror or error}); choose another output folder") from error
+        raise OutputError(
+            f"{final}: can't be written ({error.strerror or error}); choose another output folder"
+        ) from error
     finally:
         beside.unlink(missing_ok=True)
     if durable:
@@ -132,5 +136,7 @@ def ensure_writable(folder: str | Path) -> Path:
             file.flush()
             os.fsync(file.fileno())
     except OSError as error:
-        raise OutputError(f"{path}: can't write there ({error.strerror or error}); choose another output folder") from error
+        raise OutputError(
+            f"{path}: can't write there ({error.strerror or error}); choose another output folder"
+        ) from error
     return path

@@ -93,8 +93,12 @@ def coming_into(folder: str | Path, graph: str | None = None) -> Iterator[Path]:
 
 
 @contextmanager
-def one_of_results(path: Path) -> Iterator[None]:
+def one_of_results(path: Path, graph: str | None = None) -> Iterator[None]:
     """What the block writes to a path renews the manifest of its folder, if that is one of results; else it is a file.
+
+    Args:
+        path: of the file.
+        graph: as of :func:`coming_into`.
 
     Raises:
         OutputError: another process is at work in the folder of results, or it can't be written.
@@ -102,7 +106,7 @@ def one_of_results(path: Path) -> Iterator[None]:
     if staged_path(path) != path or not (result_path(path.parent / MANIFEST)).is_file() or path.name not in RESULTS:
         yield
         return
-    with at_work_in(path.parent) as folder, new_results(folder):
+    with at_work_in(path.parent) as folder, new_results(folder, graph=graph):
         yield
 
 

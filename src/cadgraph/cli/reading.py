@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import dataclasses
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 from rich.markup import escape
 
 from cadgraph.cli.application import app
 from cadgraph.cli.options import ConfigOption, GraphArgument, SetOption, settings_of
-from cadgraph.cli.screen import note_line, out, say_json, summary_lines, tell_state
+from cadgraph.cli.screen import note_line, out, say_json, state_lines, summary_lines, tell_warnings
 from cadgraph.config import to_toml
+
+if TYPE_CHECKING:
+    from cadgraph.model.graph import SceneGraph
 
 
 @app.command()
@@ -20,25 +23,43 @@ def show(
     graph: GraphArgument,
     as_json: Annotated[bool, typer.Option("--json", help="Print the summary as JSON.")] = False,
 ) -> None:
-    """Say what a graph holds."""
-    from cadgraph._io.manifest import GRAPH_FILE, behind, changed_by_others, of_an_earlier_graph
+    """Say what a graph holds, and which files of its folder don't belong to it; with --json as "warnings"."""
     from cadgraph.model.graph import SceneGraph
     from cadgraph.query.summary import summarize
 
-    summary = summarize(SceneGraph.load(graph))
+    plant = SceneGraph.load(graph)
+    summary = summarize(plant)
+    warnings = _state(plant, graph)
     if as_json:
-        say_json(dataclasses.asdict(summary))
+        say_json({**dataclasses.asdict(summary), "warnings": [*summary.warnings, *warnings]})
         return
     for line in summary_lines(summary):
         out.print(line)
-    folder = graph if graph.is_dir() else graph.parent
-    if graph.is_dir() or graph.name == GRAPH_FILE:
-        tell_state(of_an_earlier_graph(folder), changed=changed_by_others(folder))
-        if behind(folder):
-            out.print(
-                f"[dim]{'mind':<15}[/]corrections.json: not what this graph shows; 'cadgraph build' or 'cadgraph view' "
-                "brings the graph up to it"
-            )
+    tell_warnings(warnings)
+
+
+def _state(graph: SceneGraph, path: Path) -> list[str]:
+    """What in the folder of a graph doesn't belong to it, or isn't what was written, in words.
+
+    Args:
+        graph: as it was read.
+        path: its file, or its folder.
+
+    Raises:
+        FormatError: the manifest is damaged.
+    """
+    from cadgraph._io.manifest import GRAPH_FILE, behind, changed_by_others, of_an_earlier_graph
+
+    folder = path if path.is_dir() else path.parent
+    changed = graph.spoilt_shards()
+    if not path.is_dir() and path.name != GRAPH_FILE:
+        return state_lines((), changed=changed)
+    told = state_lines(of_an_earlier_graph(folder), changed=(*changed_by_others(folder), *changed))
+    if behind(folder):
+        told.append(
+            "corrections.json: not what this graph shows; 'cadgraph build' or 'cadgraph view' brings the graph up to it"
+        )
+    return told
 
 
 @app.command()

@@ -21,8 +21,8 @@ from cadgraph._io.text import harmless
 from cadgraph.cli.remaining import Remaining, told
 
 __all__ = [
-    "bars", "err", "note_line", "out", "say", "say_json", "summary_lines", "tell", "tell_built", "tell_lost",
-    "tell_next", "tell_state",
+    "bars", "err", "note_line", "out", "say", "say_json", "state_lines", "summary_lines", "tell", "tell_built",
+    "tell_lost", "tell_next", "tell_state", "tell_warnings",
 ]  # fmt: skip
 
 _REMEDY = "'cadgraph build' makes it anew"
@@ -32,7 +32,7 @@ _REMEDIES = {
     "simulation.usda": "'cadgraph simulate' makes it anew",
     "devices.json": "'cadgraph simulate' makes it anew",
 }
-_MOST_NAMES = 12  # units that are named on one line
+_MOST_NAMES = 12  # units or files that are named on one line
 _MOST_PATHS = 3  # meshes that a note names
 
 _CONTROL = re.compile("[\x7f-\x9f\u2028-\u202e\u2066-\u2069]")  # what JSON leaves as it is and a terminal obeys
@@ -168,14 +168,31 @@ def tell_built(one: Any, width: int) -> None:
     out.print(f"[dim]{escape(one.name):<{width}}[/]  {said[one.state]}")
 
 
-def tell_state(earlier: Sequence[str], removed: Sequence[str] = (), changed: Sequence[str] = ()) -> None:
+def tell_state(earlier: Sequence[str], removed: Sequence[str] = ()) -> None:
     """Says which files of a folder don't belong to its graph, and how they come to.
+
+    Args:
+        earlier: names of those that show an earlier graph.
+        removed: names of those that went with it.
+    """
+    tell_warnings(state_lines(earlier, removed))
+
+
+def tell_warnings(warnings: Sequence[str]) -> None:
+    """Says what somebody should mind, a line each."""
+    for warning in warnings:
+        out.print(f"[dim]{'mind':<15}[/]{escape(warning)}")
+
+
+def state_lines(earlier: Sequence[str], removed: Sequence[str] = (), changed: Sequence[str] = ()) -> list[str]:
+    """Which files of a folder don't belong to its graph, and how they come to, in words.
 
     Args:
         earlier: names of those that show an earlier graph.
         removed: names of those that went with it.
         changed: names of those that are gone, or not what was written.
     """
+    told = []
     for names, what in (
         (earlier, "of an earlier graph"),
         (removed, "of the earlier graph, removed"),
@@ -183,7 +200,9 @@ def tell_state(earlier: Sequence[str], removed: Sequence[str] = (), changed: Seq
     ):
         remedies = dict.fromkeys(_REMEDIES.get(name, _REMEDY) for name in names)
         if names:
-            out.print(f"[dim]{'mind':<15}[/]{', '.join(names)}: {what}; {', '.join(remedies)}")
+            more = f" and {len(names) - _MOST_NAMES:,} more" if len(names) > _MOST_NAMES else ""
+            told.append(f"{', '.join(names[:_MOST_NAMES])}{more}: {what}; {', '.join(remedies)}")
+    return told
 
 
 def tell_consequences(consequences: Sequence[str], renamed: str = "") -> None:

@@ -199,7 +199,7 @@ def _kept(note: Path, key: str, target: Path) -> dict[str, int] | None:
         counts = {name: int(said["counts"][name]) for name in ("parts", "units", "connections")}
         manifest = manifest_in(target)
         whole = manifest is not None and manifest.graph == said["graph"] and said["key"] == key
-        if whole and not changed_by_others(target) and not behind(target):
+        if whole and not (changed_by_others(target) or behind(target) or SceneGraph.load(target).spoilt_shards()):
             return counts
     except (OSError, ValueError, KeyError, TypeError, FormatError):
         pass

@@ -24,7 +24,7 @@ from cadgraph.load import load
 from cadgraph.model.corrections import CorrectionsFile
 from cadgraph.model.crew import Crew
 from cadgraph.model.given_labels import GivenLabel, read_labels
-from cadgraph.model.graph import SceneGraph
+from cadgraph.model.graph import SceneGraph, shards_in
 from cadgraph.model.scene import Scene
 from cadgraph.model.vocabulary import Vocabulary, default_vocabulary, read_vocabulary
 from cadgraph.session.ahead import imported_meanwhile
@@ -279,7 +279,7 @@ def write_graph(
         LoadError: the source can't be opened any more.
     """
     with new_results(target, corrections=corrections) as new:
-        stage_graph(scene, graph, source, target)
+        stage_graph(scene, graph, source, target, shard_above=shards_in(target))
         _keep_report(target, new)
 
 
@@ -299,7 +299,15 @@ def write_report_anew(session: Session, target: Path) -> None:
         write_report(session.analysis.scene, session.graph, target / "report.html", session.config.report)
 
 
-def stage_graph(scene: Scene, graph: SceneGraph, source: str | Path, target: Path, progress: Progress = quiet) -> None:
+def stage_graph(
+    scene: Scene,
+    graph: SceneGraph,
+    source: str | Path,
+    target: Path,
+    progress: Progress = quiet,
+    *,
+    shard_above: int | None = None,
+) -> None:
     """Writes a graph and its label layer; within ``new_results``, with whatever else is coming into the folder.
 
     Args:
@@ -308,6 +316,7 @@ def stage_graph(scene: Scene, graph: SceneGraph, source: str | Path, target: Pat
         source: the scene's file.
         target: the folder; it exists.
         progress: called with the name of a stage.
+        shard_above: as of :meth:`SceneGraph.save`.
 
     Raises:
         OutputError: a file can't be written.
@@ -315,7 +324,7 @@ def stage_graph(scene: Scene, graph: SceneGraph, source: str | Path, target: Pat
     """
     from cadgraph.export.usd import write_semantics
 
-    graph.save(target)
+    graph.save(target, shard_above)
     progress("write labels", 0)
     write_semantics(scene, graph, source, target / "semantics.usda")
 

@@ -21,7 +21,7 @@ from cadgraph._io.text import printable
 from cadgraph.errors import LoadError, MissingExtra
 from cadgraph.load.sandbox.exchange import read_scene
 from cadgraph.load.sandbox.memory import allowed_bytes
-from cadgraph.load.sandbox.trouble import Trouble, told, trouble_in, trouble_of
+from cadgraph.load.sandbox.trouble import Trouble, in_words, trouble_in, trouble_of
 from cadgraph.model.scene import Scene
 
 if TYPE_CHECKING:
@@ -61,7 +61,7 @@ def read_isolated(module: str, file: Path, given: str, config: LoadConfig) -> Sc
         trouble = trouble_of(error)
         reason = f"can't write to a temporary folder ({error.strerror or error}); set TMPDIR to one that takes files"
         if trouble is not None:
-            reason = told(trouble, tempfile.gettempdir(), memory)
+            reason = in_words(trouble, tempfile.gettempdir(), memory)
         raise LoadError(f"{given}: {reason}") from error
 
 
@@ -80,7 +80,7 @@ def _read_in(folder: Path, module: str, file: Path, given: str, config: LoadConf
     (folder / "request.json").write_text(json.dumps(request), encoding="utf-8")
     code = _run(folder, given, config.timeout)
     if (folder / "error.json").exists() and code not in list(Trouble):
-        said = _said(folder, given)
+        said = _told(folder, given)
         if isinstance(said, list):
             raise MissingExtra(*said)
         raise LoadError(_with_given_path(said, file, given))
@@ -92,7 +92,7 @@ def _read_in(folder: Path, module: str, file: Path, given: str, config: LoadConf
         raise LoadError(f"{given}: the reading process left no whole result ({error})") from error
 
 
-def _said(folder: Path, given: str) -> str | list[str]:
+def _told(folder: Path, given: str) -> str | list[str]:
     """The error that the reading process left: its text, or purpose and name of an extra that is missing."""
     try:
         said = json.loads(read_text_within(folder / "error.json", NOTE, LoadError, "export the file again"))
@@ -201,7 +201,7 @@ def _reason(code: int, stderr: Path, memory: int | None) -> str:
         said = file.read().decode("utf-8", "replace").strip()
     trouble = Trouble(code) if code in list(Trouble) else trouble_in(said)
     if trouble is not None:
-        return told(trouble, tempfile.gettempdir(), memory)
+        return in_words(trouble, tempfile.gettempdir(), memory)
     if code < 0:
         try:
             what = signal.Signals(-code).name

@@ -7,7 +7,7 @@ import re
 from enum import IntEnum
 from pathlib import Path
 
-__all__ = ["Trouble", "told", "trouble_in", "trouble_of"]
+__all__ = ["Trouble", "in_words", "trouble_in", "trouble_of"]
 
 
 class Trouble(IntEnum):
@@ -52,7 +52,7 @@ def trouble_in(said: str) -> Trouble | None:
     return next((trouble for trouble, words in _WORDS.items() if words.search(said[-_LAST:])), None)
 
 
-def told(trouble: Trouble, scratch: str | Path, memory: int | None) -> str:
+def in_words(trouble: Trouble, scratch: str | Path, memory: int | None) -> str:
     """The trouble and its remedy, in words.
 
     Args:
@@ -61,7 +61,9 @@ def told(trouble: Trouble, scratch: str | Path, memory: int | None) -> str:
         memory: that reading may take [bytes]; None: all that there is.
     """
     if trouble is Trouble.SPACE:
-        return f"no space left in {scratch} for what is read of it; make room, or set TMPDIR to a folder on another disk"
+        return (
+            f"no space left in {scratch} for what is read of it; make room, or set TMPDIR to a folder on another disk"
+        )
     if trouble is Trouble.FILE_SIZE:
         return "what is read of it is larger than a file may be here; raise that limit ('ulimit -f unlimited')"
     within = "" if memory is None else f" within {memory / 1e9:.3g} GB"
