@@ -17,11 +17,11 @@ from rich.segment import Segment
 from rich.text import Text
 
 from cadgraph._io.progress import quiet
-from cadgraph._io.text import harmless
+from cadgraph._io.text import harmless, printable
 from cadgraph.cli.remaining import Remaining, told
 
 __all__ = [
-    "bars", "err", "note_line", "out", "say", "say_json", "state_lines", "summary_lines", "tell", "tell_built",
+    "bars", "err", "named", "note_line", "out", "say", "say_json", "state_lines", "summary_lines", "tell", "tell_built",
     "tell_lost", "tell_next", "tell_state", "tell_warnings",
 ]  # fmt: skip
 
@@ -163,9 +163,14 @@ def tell_built(one: Any, width: int) -> None:
     said = {
         "built": f"built in {one.seconds:.1f} s: {found}",
         "kept": f"kept as it was built before this run was stopped: {found}",
-        "failed": f"[bold red]failed[/]: {escape(one.reason)}",
+        "failed": f"[bold red]failed[/]: {escape(printable(one.reason))}",
     }
-    out.print(f"[dim]{escape(one.name):<{width}}[/]  {said[one.state]}")
+    out.print(f"{named(one.name, width)}  {said[one.state]}")
+
+
+def named(name: str, width: int) -> str:
+    """The name of a scene at the start of its line; one that breaks lines can't pass for the line of another."""
+    return f"[dim]{escape(f'{printable(name):<{width}}')}[/]"
 
 
 def tell_state(earlier: Sequence[str], removed: Sequence[str] = ()) -> None:
@@ -240,7 +245,7 @@ def summary_lines(summary: Any) -> list[str]:
     rows = (
         (
             "source",
-            f"{escape(summary.source)}: {_count(summary.n_meshes, 'mesh', 'es')}, "
+            f"{escape(printable(summary.source))}: {_count(summary.n_meshes, 'mesh', 'es')}, "
             f"{_count(summary.n_triangles, 'triangle')}",
         ),
         ("parts", _of_them(summary.n_parts, summary.n_labelled, "labelled", "labelled", "not labelled")),

@@ -434,7 +434,7 @@ class SceneGraph:
             OutputError: it can't be written, or another process is at work in the folder of results.
         """
         target = Path(path)
-        whole = target.suffix == ".json"
+        whole = target.suffix == ".json" and not target.is_dir()
         target = target if whole else target / GRAPH_FILE
         above = _shard_above(self.config) if shard_above is None else shard_above
         content = self.document.content()
