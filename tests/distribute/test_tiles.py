@@ -3,6 +3,7 @@
 import errno
 import json
 import os
+import subprocess
 import sys
 import time
 
@@ -247,6 +248,20 @@ def test_a_call_that_always_ends_its_process_is_told_and_the_others_are_done():
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="there is no mask of signals")
+def test_a_script_that_must_not_be_imported_is_told_so(tmp_path):
+    script = tmp_path / "unguarded.py"
+    head = "from cadgraph.distribute.processes import Processes\nimport math\n"
+    work = "with Processes(2) as processes: print(processes.run(math.sqrt, [(4,)]))\n"
+    script.write_text(head + work)
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
+    done = subprocess.run([sys.executable, script], env=environment, capture_output=True, text=True, timeout=120)
+    assert done.returncode != 0
+    assert 'with its own work under if __name__ == "__main__":' in done.stderr.splitlines()[-1]
+    script.write_text(f'{head}if __name__ == "__main__":\n    {work}')
+    done = subprocess.run([sys.executable, script], env=environment, capture_output=True, text=True, timeout=120)
+    assert done.stdout.strip() == "[2.0]"
+
+
 def test_ctrl_c_reaches_no_process_while_it_starts():
     with Processes(1) as hands:
         assert hands.run(killed_tasks.hears_ctrl_c, [()]) == [False]
