@@ -219,3 +219,29 @@ def test_a_correction_of_one_file_leaves_it_one(capsys, folder):
     (folder / FOLDER).mkdir()
     run(capsys, "relabel", folder, "part-00001", "--as", "Tank/tank", "--this-only", "--no-report")
     assert json.loads((folder / "graph.json").read_text())["version"] == 1
+
+
+def test_a_source_that_changed_since_is_said(capsys, folder):
+    scene = folder.parent / "plant.usda"
+    run(capsys, "build", scene, "-o", folder, "--no-report")
+    sound = shown(capsys, folder)
+    scene.write_text(scene.read_text() + "\n")
+    [said] = [line for line in shown(capsys, folder) if line not in sound]
+    assert f"{scene}: changed since the graph was built" in said
+    scene.unlink()
+    assert shown(capsys, folder) == sound
+
+
+def test_of_a_run_of_many_scenes_each_is_told(capsys, folder, tmp_path):
+    for name in ("pump-2", "pump-10"):
+        shutil.copytree(folder, tmp_path / "many" / name)
+    (tmp_path / "many" / "pump-2" / "semantics.usda").unlink()
+    code, out, _ = run(capsys, "show", tmp_path / "many")
+    lines = out.splitlines()
+    assert code == 0
+    assert [line.split()[0] for line in lines] == ["pump-2", "mind", "pump-10"]
+    assert "semantics.usda: changed or taken away" in lines[1]
+    values = json.loads(run(capsys, "show", tmp_path / "many", "--json")[1])
+    assert list(values) == ["pump-2", "pump-10"]
+    assert values["pump-10"] == json.loads(run(capsys, "show", folder, "--json")[1])
+    assert "graph.json: can't be read" in refused(capsys, "show", tmp_path)

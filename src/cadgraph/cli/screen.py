@@ -21,11 +21,11 @@ from cadgraph._io.text import harmless, printable
 from cadgraph.cli.remaining import Remaining, told
 
 __all__ = [
-    "bars", "err", "named", "note_line", "out", "say", "say_json", "state_lines", "summary_lines", "tell", "tell_built",
-    "tell_lost", "tell_next", "tell_state", "tell_warnings",
+    "REMEDY", "bars", "counts", "err", "named", "note_line", "out", "say", "say_json", "state_lines", "summary_lines",
+    "tell", "tell_built", "tell_lost", "tell_next", "tell_state", "tell_warnings",
 ]  # fmt: skip
 
-_REMEDY = "'cadgraph build' makes it anew"
+REMEDY = "'cadgraph build' makes it anew"
 _REMEDIES = {
     "report.html": "'cadgraph build' or 'relabel' draws it anew",
     "picture.png": "'cadgraph build' or 'relabel' draws it anew",
@@ -159,13 +159,18 @@ def tell_built(one: Any, width: int) -> None:
         one: the scene, as ``cadgraph.session.many`` has it.
         width: of the longest name.
     """
-    found = f"{_count(one.parts, 'part')}, {_count(one.units, 'unit')}, {_count(one.connections, 'connection')}"
+    found = counts(one.parts, one.units, one.connections)
     said = {
         "built": f"built in {one.seconds:.1f} s: {found}",
         "kept": f"kept as it was built before this run was stopped: {found}",
         "failed": f"[bold red]failed[/]: {escape(printable(one.reason))}",
     }
     out.print(f"{named(one.name, width)}  {said[one.state]}")
+
+
+def counts(parts: int, units: int, connections: int) -> str:
+    """What a graph holds, in a few words."""
+    return f"{_count(parts, 'part')}, {_count(units, 'unit')}, {_count(connections, 'connection')}"
 
 
 def named(name: str, width: int) -> str:
@@ -203,7 +208,7 @@ def state_lines(earlier: Sequence[str], removed: Sequence[str] = (), changed: Se
         (removed, "of the earlier graph, removed"),
         (changed, "changed or taken away since it was written"),
     ):
-        remedies = dict.fromkeys(_REMEDIES.get(name, _REMEDY) for name in names)
+        remedies = dict.fromkeys(_REMEDIES.get(name, REMEDY) for name in names)
         if names:
             more = f" and {len(names) - _MOST_NAMES:,} more" if len(names) > _MOST_NAMES else ""
             told.append(f"{', '.join(names[:_MOST_NAMES])}{more}: {what}; {', '.join(remedies)}")
