@@ -33,6 +33,7 @@ def loader(tmp_path, monkeypatch, body):
             "sys.stderr.write('OpenBLAS error: Memory allocation still failed after 10 retries'); os._exit(1)",
             r"not enough memory to read it within 2 GB; .*raise load\.memory",
         ),
+        ("raise ImportError('_tf.so: failed to map segment from shared object')", "not enough memory to read it"),
         # What is said of the file is lost where there is no room for it.
         ("open(sys.argv[1] + '/error.json', 'w'); raise OSError(errno.ENOSPC, 'full')", "no space left in"),
     ],
@@ -70,3 +71,16 @@ def test_other_errors_are_no_trouble_of_the_machine():
     assert trouble_of(OSError(errno.ENOENT, "gone")) is None
     assert trouble_of(OSError("no number")) is None
     assert trouble_of(ValueError("wrong")) is None
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="elsewhere no system holds a process to it")
+@pytest.mark.parametrize(("memory", "told"), [(2.0, r"load\.max_growth"), (0.2, r"load\.memory")])
+def test_what_holds_reading_back_is_what_is_named(tmp_path, monkeypatch, memory, told):
+    # More than a file of a few bytes can become, or more than may be taken at all.
+    body = (
+        "from cadgraph.load.budget import Budget; budget = Budget(path, config, 9); budget.watch()\n"
+        "    try: import numpy; numpy.empty(900_000_000, numpy.uint8)\n"
+        "    except MemoryError: budget.refuse_arrays(); raise"
+    )
+    with pytest.raises(LoadError, match=told):
+        read_isolated(loader(tmp_path, monkeypatch, body), tmp_path / "a.usd", "a.usd", LoadConfig(memory=memory))

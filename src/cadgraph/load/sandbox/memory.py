@@ -63,21 +63,27 @@ def hold_to(most: int | None) -> None:
         _held = True
 
 
-def hold_to_more(more: int) -> None:
+def hold_to_more(more: int) -> bool:
     """Until ``release``, lets this process take only so much more than it has; only where ``hold_to`` was called.
 
     Args:
         more: bytes.
+
+    Returns:
+        Whether that is less than it may take by ``hold_to``.
     """
     if not _held or sys.platform != "linux":
-        return
+        return False
     with suppress(ImportError, OSError, ValueError, IndexError):
         import resource
 
         pages = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[5])
         hard = resource.getrlimit(resource.RLIMIT_DATA)[1]
         most = pages * os.sysconf("SC_PAGE_SIZE") + more
-        resource.setrlimit(resource.RLIMIT_DATA, (most if hard == resource.RLIM_INFINITY else min(most, hard), hard))
+        is_less = hard == resource.RLIM_INFINITY or most < hard
+        resource.setrlimit(resource.RLIMIT_DATA, (most if is_less else hard, hard))
+        return is_less
+    return False
 
 
 def release() -> None:

@@ -29,8 +29,8 @@ _WORDS = {
     Trouble.FILE_SIZE: re.compile(r"File too large|SIGXFSZ|File size limit exceeded"),
     Trouble.MEMORY: re.compile(
         r"MemoryError|bad_alloc|[Cc]annot allocate memory|[Oo]ut of memory|unable to allocate"
-        # What OpenBLAS says when its threads start.
-        r"|Memory allocation still failed"
+        # Of OpenBLAS when its threads start, and of the system when it takes in a library (which it may also forbid).
+        r"|Memory allocation still failed|failed to map segment from shared object(?!: Operation not permitted)"
     ),
 }
 _LAST = 4_000  # characters of what a process said last
