@@ -33,7 +33,7 @@ class Here:
     """Runs calls one after the other in this process, and counts them."""
 
     def __init__(self, count=2):
-        self.count, self.calls = count, 0
+        self.count, self.calls, self.ended = count, 0, 0
 
     def run(self, function, calls, told=None, each=None):
         self.calls += len(calls)
@@ -111,6 +111,7 @@ def test_measures_of_shapes_survive_packing_to_the_last_bit(plant):
 def test_a_run_that_was_stopped_goes_on_where_it_was(plant, tmp_path):
     scene, whole = plant
     first = Here()
+    assert TileCrew(first, tmp_path, 5).remarks == ()
     cadgraph.build(scene, crew=TileCrew(first, tmp_path, 5))
     results = sorted(tmp_path.rglob("result-*.npz"))
     assert len(results) == first.calls > 5
@@ -221,8 +222,12 @@ def test_a_process_that_is_killed_costs_another_try(tmp_path):
     with Processes(2) as hands:
         assert hands.run(killed_tasks.end_once, calls, shares.append) == list(range(6))
         assert shares[-1] == 1
+        assert hands.ended == 1
+        (told,) = TileCrew(hands, tmp_path).remarks
+        assert told.startswith("once a process ended before its work was done, and that was done again")
         # The processes are as good as new.
         assert hands.run(killed_tasks.double, [(4,)]) == [8]
+        assert hands.ended == 1
 
 
 def test_who_is_stopped_does_not_wait_for_what_is_being_worked_out():

@@ -53,6 +53,7 @@ class Processes:
         self._workers = workers
         self._threads = threads or max(1, processors // workers)
         self._pool: ProcessPoolExecutor | None = None
+        self._ended = 0
         self._begun = _SPAWN.Event()  # whether any process came as far as to its work
 
     def __enter__(self) -> Processes:
@@ -69,6 +70,11 @@ class Processes:
     def count(self) -> int:
         """How many work at a time."""
         return self._workers
+
+    @property
+    def ended(self) -> int:
+        """How often a process ended amid its calls, which were then tried again."""
+        return self._ended
 
     def run(
         self,
@@ -142,6 +148,7 @@ class Processes:
     def _drop_broken(self) -> None:
         processes = list((getattr(self._pool, "_processes", None) or {}).values())
         self._drop()
+        self._ended += 1
         # Of one that the system ended, as for want of memory, the code is negative.
         if not self._begun.is_set() and any((process.exitcode or 0) > 0 for process in processes):
             raise CadGraphError(_UNGUARDED)

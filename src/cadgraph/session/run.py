@@ -63,7 +63,8 @@ class Outcome:
         seconds: wall time of each stage [s].
         earlier: names of the files in the folder that still show an earlier graph, as a report that was not drawn anew.
         removed: names of the files that went with the earlier graph.
-        remarks: which labels and corrections of the earlier graph this one has not, and how they come back.
+        remarks: which labels and corrections of the earlier graph this one has not, and how they come back; and that
+            work was done again after a process was ended.
     """
 
     graph: SceneGraph
@@ -138,7 +139,7 @@ def run(
             # What the stages have found and nobody holds any more leads back to itself in many places.
             gc.collect()
         outcome = write_results(scene, graph, source, target, config.report if report else None, clock)
-        return replace(outcome, remarks=remarks)
+        return replace(outcome, remarks=(*remarks, *(crew.remarks if crew is not None else ())))
 
 
 def begin(
