@@ -111,7 +111,7 @@ def test_what_a_loss_of_power_leaves_of_results_can_be_built_over(tmp_path, left
     assert changed_by_others(tmp_path) == ()
 
 
-@pytest.mark.parametrize("name", ["report.html", "simulation.usda"])
+@pytest.mark.parametrize("name", ["report.html", "simulation.usda", "semantics.usda"])
 def test_beside_our_results_a_file_of_somebody_else_stays(tmp_path, name):
     of_a_run(tmp_path)
     (tmp_path / name).write_text("mine")

@@ -9,10 +9,10 @@ from pathlib import Path
 
 from cadgraph._io.atomic import ensure_writable
 from cadgraph._io.folder_lock import holding
-from cadgraph._io.manifest import CORRECTIONS, GRAPH_FILE, MANIFEST, MARK, RESULTS, manifest_in
+from cadgraph._io.manifest import CORRECTIONS, GRAPH_FILE, MANIFEST, MARK, RESULTS
 from cadgraph._io.results import new_results, settle, sweep_next
 from cadgraph._io.staging import result_path, staged_path
-from cadgraph.errors import FormatError, OutputError
+from cadgraph.errors import OutputError
 
 __all__ = [
     "RESULTS",
@@ -157,8 +157,8 @@ def refuse_to_overwrite(folder: Path, files: Iterable[str | Path], what: str) ->
 def refuse_foreign(folder: Path) -> None:
     """Makes sure that nothing of others stands in a folder where a result goes.
 
-    What bears our mark is ours, and so is what a manifest of ours names, whatever became of it. In a folder that holds
-    either, what has no mark of its own is ours, too, and a file of nothing is what a loss of power left of a result.
+    What bears our mark is ours. In a folder that holds any such file, what has no mark of its own is ours, too, and a
+    file of nothing is what a loss of power left of a result; beside a manifest the graph is ours whatever it holds.
 
     Raises:
         OutputError: a file of somebody else has the name of a result.
@@ -168,21 +168,12 @@ def refuse_foreign(folder: Path) -> None:
         if path.is_dir():
             raise OutputError(f"{path}: a folder stands where a result goes; choose another output folder")
     marked = {path.name for path in there if path.name in _MARKS and _MARKS[path.name] in _head_of(path)}
-    named = _named_in(folder) if MANIFEST in marked else frozenset()
+    vouched = marked | ({GRAPH_FILE} if MANIFEST in marked else set())
     for path in there:
         # Some file systems leave zeros in place of what had not reached the disk.
-        vouched = marked and (path.name not in _MARKS or not _head_of(path).strip(b"\0"))
-        if path.name not in marked | named and not vouched:
+        is_rest = path.name not in _MARKS or not _head_of(path).strip(b"\0")
+        if path.name not in vouched and not (marked and is_rest):
             raise OutputError(f"{path}: not written by cadgraph, so it is left alone; choose another output folder")
-
-
-def _named_in(folder: Path) -> frozenset[str]:
-    """The results that a manifest of ours names; none where it is damaged."""
-    try:
-        manifest = manifest_in(folder)
-    except FormatError:
-        manifest = None
-    return frozenset(manifest.files) if manifest is not None else frozenset()
 
 
 def _head_of(path: Path) -> bytes:
