@@ -1,12 +1,15 @@
 """Commands and the folder of a run: one at a time, all of its files or none, and what is out of date says so."""
 
+import gzip
 import hashlib
+import json
 import shutil
 
 import pytest
 
 from cadgraph._io.folder_lock import holding
 from cadgraph._io.manifest import behind, changed_by_others, manifest_in, of_an_earlier_graph
+from cadgraph._io.shard_files import FOLDER
 from cadgraph.draw.report import marked_as_earlier
 from cadgraph.model.corrections import read_corrections
 from cadgraph.model.graph import SceneGraph
@@ -135,3 +138,110 @@ def test_a_report_says_once_that_it_is_earlier_and_nothing_when_it_is_not():
     assert marked_as_earlier(marked, False) == page
     assert marked_as_earlier(page, False) == page
     assert b"shows an earlier graph" in marked_as_earlier(b"no page of ours", True)
+
+
+def shown(capsys, folder):
+    return json.loads(run(capsys, "show", folder, "--json")[1])["warnings"]
+
+
+def test_what_is_out_of_date_or_spoilt_is_said_in_json_too(capsys, folder):
+    sound = shown(capsys, folder)
+    (folder / "semantics.usda").write_text("#usda 1.0\n# of cadgraph, changed\n")
+    run(capsys, "relabel", folder, "part-00001", "--as", "Tank/tank", "--this-only", "--no-report")
+    (folder / "semantics.usda").unlink()
+    (folder / "corrections.json").unlink()
+    said = [line for line in shown(capsys, folder) if line not in sound]
+    assert [line.split(":")[0] for line in said] == ["semantics.usda", "corrections.json"]
+    assert "changed or taken away since it was written; 'cadgraph build' makes it anew" in said[0]
+    text = run(capsys, "show", folder)[1]
+    assert all(line in text for line in said)
+
+
+def spoilt_gone(shard):
+    shard.unlink()
+
+
+def spoilt_empty(shard):
+    shard.write_bytes(b"")
+
+
+def spoilt_edited(shard):
+    shard.write_bytes(gzip.compress(gzip.decompress(shard.read_bytes()).replace(b"part-00001", b"part-00009")))
+
+
+@pytest.mark.parametrize("spoil", [spoilt_gone, spoilt_empty, spoilt_edited])
+def test_a_spoilt_shard_is_said(capsys, folder, spoil):
+    sound = shown(capsys, folder)
+    run(capsys, "export", folder, "--to", "shards")
+    assert shown(capsys, folder) == sound
+    [shard] = (folder / FOLDER).glob("nodes-part-*")
+    spoil(shard)
+    [said] = [line for line in shown(capsys, folder) if line not in sound]
+    assert said.startswith(f"{FOLDER}/{shard.name}: changed or taken away since it was written")
+
+
+def test_another_layout_is_the_same_graph_and_nothing_becomes_earlier(capsys, folder):
+    run(capsys, "relabel", folder, "part-00001", "--as", "Tank/tank", "--this-only")
+    whole, labels = (folder / "graph.json").read_bytes(), digests(folder)["semantics.usda"]
+    before = shown(capsys, folder)
+    for words in (("--to", "shards"), ("--to", "shards"), ("--to", "json", "-o", folder / "graph.json")):
+        assert run(capsys, "export", folder, *words)[0] == 0
+        assert of_an_earlier_graph(folder) == changed_by_others(folder) == ()
+        assert not behind(folder)
+        assert shown(capsys, folder) == before
+        assert digests(folder)["semantics.usda"] == labels
+    assert (folder / "graph.json").read_bytes() == whole
+    assert not (folder / FOLDER).exists()
+
+
+def test_what_shows_an_earlier_graph_does_so_in_another_layout_too(capsys, folder):
+    run(capsys, "build", folder.parent / "plant.usda", "-o", folder, *SMALL, "--set", "label.labeler=none")
+    run(capsys, "relabel", folder, "part-00001", "--as", "Tank/tank", "--this-only", "--no-report")
+    run(capsys, "export", folder, "--to", "shards")
+    assert of_an_earlier_graph(folder) == ("picture.png", "report.html")
+
+
+def test_a_correction_leaves_a_graph_in_its_shards(capsys, folder):
+    relabel = ("part-00001", "--as", "Tank/tank", "--this-only", "--no-report")
+    run(capsys, "export", folder, "--to", "shards")
+    assert run(capsys, "relabel", folder, *relabel)[0] == 0
+    assert json.loads((folder / "graph.json").read_text())["version"] == 2
+    graph = SceneGraph.load(folder)
+    assert graph.part("part-00001").label.name == "tank"
+    assert graph.spoilt_shards() == changed_by_others(folder) == ()
+    # A build is laid out as the settings say, and takes along what no graph needs.
+    run(capsys, "build", folder.parent / "plant.usda", "-o", folder, "--no-report")
+    assert json.loads((folder / "graph.json").read_text())["version"] == 1
+    assert not (folder / FOLDER).exists()
+
+
+def test_a_correction_of_one_file_leaves_it_one(capsys, folder):
+    (folder / FOLDER).mkdir()
+    run(capsys, "relabel", folder, "part-00001", "--as", "Tank/tank", "--this-only", "--no-report")
+    assert json.loads((folder / "graph.json").read_text())["version"] == 1
+
+
+def test_a_source_that_changed_since_is_said(capsys, folder):
+    scene = folder.parent / "plant.usda"
+    run(capsys, "build", scene, "-o", folder, "--no-report")
+    sound = shown(capsys, folder)
+    scene.write_text(scene.read_text() + "\n")
+    [said] = [line for line in shown(capsys, folder) if line not in sound]
+    assert f"{scene}: changed since the graph was built" in said
+    scene.unlink()
+    assert shown(capsys, folder) == sound
+
+
+def test_of_a_run_of_many_scenes_each_is_told(capsys, folder, tmp_path):
+    for name in ("pump-2", "pump-10"):
+        shutil.copytree(folder, tmp_path / "many" / name)
+    (tmp_path / "many" / "pump-2" / "semantics.usda").unlink()
+    code, out, _ = run(capsys, "show", tmp_path / "many")
+    lines = out.splitlines()
+    assert code == 0
+    assert [line.split()[0] for line in lines] == ["pump-2", "mind", "pump-10"]
+    assert "semantics.usda: changed or taken away" in lines[1]
+    values = json.loads(run(capsys, "show", tmp_path / "many", "--json")[1])
+    assert list(values) == ["pump-2", "pump-10"]
+    assert values["pump-10"] == json.loads(run(capsys, "show", folder, "--json")[1])
+    assert "graph.json: can't be read" in refused(capsys, "show", tmp_path)

@@ -1,6 +1,9 @@
 """What a crew finds tile by tile is what one process finds, to the byte."""
 
+import errno
 import json
+import os
+import subprocess
 import sys
 import time
 
@@ -11,12 +14,14 @@ from hypothesis import strategies as st
 
 import cadgraph
 import killed_tasks
+from cadgraph.config import Config
 from cadgraph.distribute.crew import TileCrew
 from cadgraph.distribute.cut import cut_rows, cut_tiles, own_pairs
 from cadgraph.distribute.hands import Failure
 from cadgraph.distribute.packing import pack_facts, unpack_facts
 from cadgraph.distribute.processes import Processes
 from cadgraph.distribute.site import FOLDER
+from cadgraph.errors import OutputError
 from cadgraph.geometry.contact.broad import near_boxes
 from cadgraph.geometry.mesh.properties import measure
 from cadgraph.geometry.shape.analysis import measure_shapes
@@ -28,7 +33,7 @@ class Here:
     """Runs calls one after the other in this process, and counts them."""
 
     def __init__(self, count=2):
-        self.count, self.calls = count, 0
+        self.count, self.calls, self.ended = count, 0, 0
 
     def run(self, function, calls, told=None, each=None):
         self.calls += len(calls)
@@ -106,6 +111,7 @@ def test_measures_of_shapes_survive_packing_to_the_last_bit(plant):
 def test_a_run_that_was_stopped_goes_on_where_it_was(plant, tmp_path):
     scene, whole = plant
     first = Here()
+    assert TileCrew(first, tmp_path, 5).remarks == ()
     cadgraph.build(scene, crew=TileCrew(first, tmp_path, 5))
     results = sorted(tmp_path.rglob("result-*.npz"))
     assert len(results) == first.calls > 5
@@ -114,6 +120,71 @@ def test_a_run_that_was_stopped_goes_on_where_it_was(plant, tmp_path):
     again = Here()
     assert _bytes(cadgraph.build(scene, crew=TileCrew(again, tmp_path, 5))) == whole
     assert again.calls == 2
+
+
+def spoilt_zeros(file):
+    """The last quarter of a file is zeros, as where its last blocks never reached the disk."""
+    content = file.read_bytes()
+    kept = len(content) * 3 // 4
+    file.write_bytes(content[:kept] + bytes(len(content) - kept))
+
+
+def spoilt_short(file):
+    file.write_bytes(file.read_bytes()[:200])
+
+
+def spoilt_gone(file):
+    file.unlink()
+
+
+def spoilt_empty(file):
+    file.write_bytes(b"")
+
+
+@pytest.mark.parametrize("spoil", [spoilt_zeros, spoilt_short, spoilt_gone, spoilt_empty])
+@pytest.mark.parametrize("name", ["vertices.npy", "face_offsets.npy", "done"])
+def test_what_tasks_read_is_written_anew_where_a_crash_spoilt_it(plant, tmp_path, spoil, name):
+    scene, _ = plant
+    measured = measure(scene)
+    crew = TileCrew(Here(), tmp_path, 5)
+    first = crew.contacts(scene, measured, 0.01)
+    (file,) = tmp_path.glob(f"scene-*/{name}")
+    content = file.read_bytes()
+    spoil(file)
+    for result in tmp_path.rglob("result-*.npz"):
+        result.unlink()
+    again = crew.contacts(scene, measured, 0.01)
+    assert again.distance.tobytes() == first.distance.tobytes()
+    assert again.pairs.tobytes() == first.pairs.tobytes()
+    assert file.read_bytes() == content
+
+
+def test_what_tasks_read_stays_where_it_is_whole(plant, tmp_path):
+    scene, _ = plant
+    measured = measure(scene)
+    crew = TileCrew(Here(), tmp_path, 5)
+    crew.contacts(scene, measured, 0.01)
+    (file,) = tmp_path.glob("scene-*/vertices.npy")
+    before = file.stat()
+    crew.contacts(scene, measured, 0.01)
+    assert (file.stat().st_ino, file.stat().st_mtime_ns) == (before.st_ino, before.st_mtime_ns)
+
+
+class Full:
+    """A file on a disk that has no more room."""
+
+    def __init__(self, *_):
+        self.write = self._refuse
+
+    def _refuse(self, _):
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+
+def test_a_full_disk_is_said_and_nothing_is_left(tmp_path, monkeypatch):
+    monkeypatch.setattr("cadgraph._io.arrays.SimpleNamespace", lambda write: Full())
+    with pytest.raises(OutputError, match=r"vertices\.npy: can't be written \(No space left on device\)"):
+        run(DEMO_SCENE, tmp_path / "out", Config().replace({"load.isolate": False}), report=False, tiles=4)
+    assert not (tmp_path / "out").exists()
 
 
 @pytest.mark.parametrize(("count", "anew"), [(3, False), (64, True)])
@@ -151,8 +222,12 @@ def test_a_process_that_is_killed_costs_another_try(tmp_path):
     with Processes(2) as hands:
         assert hands.run(killed_tasks.end_once, calls, shares.append) == list(range(6))
         assert shares[-1] == 1
+        assert hands.ended == 1
+        (told,) = TileCrew(hands, tmp_path).remarks
+        assert told.startswith("once a process ended before its work was done, and that was done again")
         # The processes are as good as new.
         assert hands.run(killed_tasks.double, [(4,)]) == [8]
+        assert hands.ended == 1
 
 
 def test_who_is_stopped_does_not_wait_for_what_is_being_worked_out():
@@ -178,6 +253,20 @@ def test_a_call_that_always_ends_its_process_is_told_and_the_others_are_done():
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="there is no mask of signals")
+def test_a_script_that_must_not_be_imported_is_told_so(tmp_path):
+    script = tmp_path / "unguarded.py"
+    head = "from cadgraph.distribute.processes import Processes\nimport math\n"
+    work = "with Processes(2) as processes: print(processes.run(math.sqrt, [(4,)]))\n"
+    script.write_text(head + work)
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
+    done = subprocess.run([sys.executable, script], env=environment, capture_output=True, text=True, timeout=120)
+    assert done.returncode != 0
+    assert 'with its own work under if __name__ == "__main__":' in done.stderr.splitlines()[-1]
+    script.write_text(f'{head}if __name__ == "__main__":\n    {work}')
+    done = subprocess.run([sys.executable, script], env=environment, capture_output=True, text=True, timeout=120)
+    assert done.stdout.strip() == "[2.0]"
+
+
 def test_ctrl_c_reaches_no_process_while_it_starts():
     with Processes(1) as hands:
         assert hands.run(killed_tasks.hears_ctrl_c, [()]) == [False]

@@ -97,6 +97,30 @@ def test_a_failing_block_changes_nothing(folder, reason):
     assert holds(folder, OLD)
 
 
+def test_files_are_on_the_disk_before_they_count(folder, monkeypatch):
+    seen, fsync, replace = [], os.fsync, os.replace
+
+    def flushed(number):
+        seen.append(os.fstat(number).st_ino)
+        return fsync(number)
+
+    def renamed(source, target):
+        if str(target).endswith(READY):
+            seen.append({path.name: path.stat().st_ino for path in (*source.rglob("*"), source)})
+        return replace(source, target)
+
+    monkeypatch.setattr(os, "fsync", flushed)
+    monkeypatch.setattr(os, "replace", renamed)
+    write(folder, {**NEW, "graph-shards/nodes-00000.gz": "rows"})
+    at = next(i for i, one in enumerate(seen) if isinstance(one, dict))
+    files = seen[at] if hasattr(os, "O_DIRECTORY") else {name: n for name, n in seen[at].items() if "." in name[1:]}
+    assert {*NEW, MANIFEST} < set(files)
+    assert set(files.values()) <= set(seen[:at])
+    if hasattr(os, "O_DIRECTORY"):
+        assert folder.stat().st_ino in seen[at + 1 :]
+        assert (folder / "graph-shards").stat().st_ino in seen[at + 1 :]
+
+
 def steps_of(monkeypatch, act):
     """How often the system is asked to rename or remove something while a commit goes on."""
     count = [0]

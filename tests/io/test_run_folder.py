@@ -1,7 +1,10 @@
 import pytest
 
 from cadgraph._io.folder_lock import LOCK
+from cadgraph._io.manifest import changed_by_others
+from cadgraph._io.results import new_results
 from cadgraph._io.run_folder import refuse_to_overwrite, results_folder
+from cadgraph._io.staging import NEXT
 from cadgraph.errors import OutputError
 
 
@@ -64,4 +67,61 @@ def test_a_manifest_of_another_program_is_left_alone(tmp_path):
         pytest.raises(OutputError, match=r"manifest\.json: not written by cadgraph, so it is left alone"),
         results_folder(tmp_path),
     ):
+        pass
+
+
+def of_a_run(folder):
+    with new_results(folder):
+        (folder / NEXT).mkdir()
+        for name, content in (
+            ("graph.json", '{"format": "cadgraph"}'),
+            ("semantics.usda", "#usda 1.0 cadgraph"),
+            ("picture.png", "a picture"),
+        ):
+            (folder / NEXT / name).write_text(content)
+
+
+NOTHING, ZEROS = b"", bytes(3000)
+
+
+@pytest.mark.parametrize(
+    "left",
+    [
+        {"graph.json": None},
+        {"graph.json": NOTHING},
+        {"graph.json": b"{}"},
+        {"graph.json": ZEROS},
+        {"manifest.json": NOTHING},
+        {"manifest.json": ZEROS},
+        {"manifest.json": b'{"format": "cadgraph-manifest", "ver'},
+        {"manifest.json": None, "graph.json": NOTHING},
+        {"manifest.json": NOTHING, "graph.json": NOTHING},
+        {"semantics.usda": NOTHING, "graph.json": b"{}", "picture.png": NOTHING},
+    ],
+)
+def test_what_a_loss_of_power_leaves_of_results_can_be_built_over(tmp_path, left):
+    of_a_run(tmp_path)
+    for name, content in left.items():
+        if content is None:
+            (tmp_path / name).unlink()
+        else:
+            (tmp_path / name).write_bytes(content)
+    with results_folder(tmp_path):
+        of_a_run(tmp_path)
+    assert changed_by_others(tmp_path) == ()
+
+
+@pytest.mark.parametrize("name", ["report.html", "simulation.usda", "semantics.usda"])
+def test_beside_our_results_a_file_of_somebody_else_stays(tmp_path, name):
+    of_a_run(tmp_path)
+    (tmp_path / name).write_text("mine")
+    with pytest.raises(OutputError, match=f"{name}: not written by cadgraph"), results_folder(tmp_path):
+        pass
+    assert (tmp_path / name).read_text() == "mine"
+
+
+@pytest.mark.parametrize("content", [NOTHING, b"{}", ZEROS])
+def test_where_nothing_proves_a_folder_ours_no_file_is_taken_for_a_rest(tmp_path, content):
+    (tmp_path / "graph.json").write_bytes(content)
+    with pytest.raises(OutputError, match=r"graph\.json: not written by cadgraph"), results_folder(tmp_path):
         pass

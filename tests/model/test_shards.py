@@ -9,11 +9,12 @@ import shutil
 import pytest
 
 import graphs
+from cadgraph._io.shard_files import FOLDER
 from cadgraph.config import Config
 from cadgraph.errors import FormatError, UnknownNode
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Adjacent, Cluster, Connected, Contains, Part, Site, Terminal, Unit
-from cadgraph.model.shards import ABOVE, FOLDER, Shards, cut
+from cadgraph.model.shards import ABOVE, Shards, cut
 from cadgraph.query import find_lines, trace
 from cadgraph.query.network import Network
 from cadgraph.query.summary import summarize

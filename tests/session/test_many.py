@@ -1,11 +1,13 @@
 """Many scenes in one run: each as if it were built alone, one that fails stops no other, and nothing is done twice."""
 
 import shutil
+from pathlib import Path
 
 import pytest
 
 from cadgraph.cli.build_command import with_address
-from cadgraph.session.many import FOLDER, build_many, folders_of
+from cadgraph.cli.screen import tell_built
+from cadgraph.session.many import FOLDER, BuiltScene, build_many, folders_of
 from cadgraph.session.run import run as run_one
 from command_line import refused, run
 from serving import write_blocks
@@ -47,6 +49,31 @@ def test_one_that_fails_stops_no_other_and_the_next_run_goes_on_with_it(tmp_path
         ["first", "kept"],
         ["second", "kept"],
     ]
+
+
+def test_a_scene_is_called_as_it_was_given_whatever_its_name(tmp_path, scenes, capsys, monkeypatch):
+    (tmp_path / "in").mkdir()
+    names = ["graph.json.usda", "first.usda"]
+    for name in names:
+        shutil.copy(scenes[0], tmp_path / "in" / name)
+    monkeypatch.chdir(tmp_path)
+    settings = ("--no-report", "--set", "label.labeler=none")
+    assert run(capsys, "build", *(f"in/{name}" for name in names), "-o", "out", *settings)[0] == 0
+    assert run(capsys, "build", "in/first.usda", "-o", "alone", *settings)[0] == 0
+    alone = (tmp_path / "alone" / "graph.json").read_bytes()
+    assert (tmp_path / "out" / "first" / "graph.json").read_bytes() == alone
+    assert (tmp_path / "out" / "graph.json" / "graph.json").read_bytes() == alone.replace(
+        b"in/first.usda", b"in/graph.json.usda"
+    )
+
+
+@pytest.mark.parametrize("state", ["built", "kept", "failed"])
+def test_no_name_passes_for_the_line_of_another_scene(capsys, state):
+    name = "a\ntank   built in 1.0 s\x1b[2K\u2028b"
+    tell_built(BuiltScene(name, Path(f"{name}.usd"), state, reason="one\nline"), len(name))
+    said = capsys.readouterr().out
+    assert len(said.splitlines()) == 1
+    assert said.startswith("a tank   built in 1.0 s [2K b  ")
 
 
 @pytest.mark.slow

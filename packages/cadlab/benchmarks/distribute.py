@@ -90,6 +90,7 @@ class Alone:
     """Hands that are this process itself."""
 
     count = 1
+    ended = 0
 
     def run(self, function: Callable[..., Any], calls: Sequence[Call], *_: object) -> list[Any]:
         return [function(*call) for call in calls]
@@ -112,6 +113,11 @@ class Timed:
     @property
     def count(self) -> int:
         return int(self._hands.count)
+
+    @property
+    def ended(self) -> int:
+        """How often a process ended amid its calls."""
+        return int(self._hands.ended)
 
     def run(self, function: Callable[..., Any], calls: Sequence[Call], *_: object) -> list[Any]:
         done = self._hands.run(timed_call, [(function, call) for call in calls])

@@ -20,7 +20,8 @@ from typing import Any
 from _timing import machine
 
 from cadgraph._io.json_rows import json_rows
-from cadgraph.model.shards import ABOVE, FOLDER, cut
+from cadgraph._io.shard_files import FOLDER
+from cadgraph.model.shards import ABOVE, cut
 from cadlab.markdown import head, row
 
 _ASK = """

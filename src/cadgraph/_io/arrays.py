@@ -5,6 +5,8 @@ from __future__ import annotations
 import warnings
 import zipfile
 from io import BytesIO
+from pathlib import Path
+from types import SimpleNamespace
 from typing import IO, Any
 
 import numpy as np
@@ -12,7 +14,7 @@ import numpy.typing as npt
 
 from cadgraph._io.limits import Limit, size_text
 
-__all__ = ["check_array", "read_arrays"]
+__all__ = ["check_array", "read_arrays", "write_array"]
 
 
 def read_arrays(content: bytes, limit: Limit) -> dict[str, npt.NDArray[Any]]:
@@ -73,3 +75,14 @@ def check_array(file: IO[bytes], size: int, name: str) -> tuple[tuple[int, ...],
     if file.tell() + claimed != size:
         raise ValueError(f"{name} is cut short or too long")
     return shape, dtype, fortran
+
+
+def write_array(path: Path, array: npt.NDArray[Any]) -> None:
+    """Writes an array into an npy file.
+
+    Raises:
+        OSError: it can't be written; with the reason, which numpy loses where it writes to the file itself.
+    """
+    with path.open("wb") as file:
+        # What numpy doesn't take for a file gets the same bytes from it, piece by piece.
+        np.save(SimpleNamespace(write=file.write), array, allow_pickle=False)

@@ -6,6 +6,7 @@ import errno
 import os
 import secrets
 import stat
+import sys
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
@@ -14,7 +15,7 @@ from pathlib import Path
 from cadgraph._io.staging import staged_path
 from cadgraph.errors import OutputError
 
-__all__ = ["ensure_writable", "flush_folder", "replacing", "write_atomically"]
+__all__ = ["ensure_writable", "flush", "flush_folder", "replacing", "write_atomically"]
 
 _TRIED = 1 << 16  # bytes: more than a file system keeps beside a name
 
@@ -36,16 +37,20 @@ def replacing(target: str | Path, durable: bool = False) -> Iterator[Path]:
         there.parent.mkdir(parents=True, exist_ok=True)
         beside = _make_beside(there, final)
     except OSError as error:
-        raise OutputError(f"{final}: can't be written ({error.strerror}); choose another output folder") from error
+        raise OutputError(
+            f"{final}: can't be written ({error.strerror or error}); choose another output folder"
+        ) from error
     try:
         yield beside
         with suppress(FileNotFoundError):
             beside.chmod(stat.S_IMODE(final.stat().st_mode))
         if durable:
-            _flush(beside)
+            flush(beside)
         beside.replace(there)
     except OSError as error:
-        raise OutputError(f"{final}: can't be written ({error.strerror}); choose another output folder") from error
+        raise OutputError(
+            f"{final}: can't be written ({error.strerror or error}); choose another output folder"
+        ) from error
     finally:
         beside.unlink(missing_ok=True)
     if durable:
@@ -67,9 +72,14 @@ def write_atomically(target: str | Path, content: str | bytes, durable: bool = F
         beside.write_bytes(content.encode("utf-8") if isinstance(content, str) else content)
 
 
-def _flush(file: Path) -> None:
-    """Waits until what was written to a file is on the disk."""
-    with file.open("rb+") as opened:
+def flush(file: Path) -> None:
+    """Waits until what was written to a file is on the disk.
+
+    Raises:
+        OSError: the disk reports that it couldn't.
+    """
+    # Windows flushes only what may be written to; elsewhere the file may be one that must not.
+    with file.open("rb+" if sys.platform == "win32" else "rb") as opened:
         os.fsync(opened.fileno())
 
 
@@ -91,7 +101,7 @@ def flush_folder(file: Path) -> None:
         # Some shares flush files, but no folders; there is nothing better to be had.
         if error.errno not in (errno.EINVAL, errno.ENOTSUP, errno.EBADF, errno.ENOSYS, errno.EACCES):
             raise OutputError(
-                f"{file}: whether it stays written is not sure ({error.strerror}); look after the disk"
+                f"{file}: whether it stays written is not sure ({error.strerror or error}); look after the disk"
             ) from error
 
 
@@ -126,5 +136,7 @@ def ensure_writable(folder: str | Path) -> Path:
             file.flush()
             os.fsync(file.fileno())
     except OSError as error:
-        raise OutputError(f"{path}: can't write there ({error.strerror}); choose another output folder") from error
+        raise OutputError(
+            f"{path}: can't write there ({error.strerror or error}); choose another output folder"
+        ) from error
     return path

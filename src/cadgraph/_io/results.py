@@ -15,14 +15,16 @@ import os
 import shutil
 import sys
 import time
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Sequence
 from contextlib import contextmanager, suppress
+from dataclasses import replace
 from pathlib import Path
 
-from cadgraph._io.atomic import flush_folder
+from cadgraph._io.atomic import flush, flush_folder
 from cadgraph._io.digest import sha256_of
 from cadgraph._io.folder_lock import holding
 from cadgraph._io.manifest import CORRECTIONS, GRAPH_FILE, MANIFEST, RESULTS, Entry, Manifest, manifest_in
+from cadgraph._io.shard_files import sweep_shards
 from cadgraph._io.staging import NEXT, READY, redirecting
 from cadgraph.errors import FormatError, OutputError
 
@@ -37,7 +39,8 @@ class NewResults:
     Args:
         folder: where they go.
         dropped: names of results that go with it unless they are written anew.
-        graph: digest of the ``graph.json`` that they are made of; None: that which stands in the folder then.
+        graph: digest of the ``graph.json`` that they are made of; None: that which stands in the folder then. Where it
+            is the one before, a ``graph.json`` among them is the same graph in another layout.
         corrections: digest of the corrections that the graph shows; None: those in the folder.
     """
 
@@ -78,12 +81,13 @@ class NewResults:
         try:
             if manifest is not None:
                 (self._next / MANIFEST).write_bytes(manifest.to_bytes())
+            _flush(self._next, [*staged, *([MANIFEST] if manifest is not None else [])])
             _patiently(self._next, self._folder / READY)
         except OSError as error:
             raise OutputError(f"{self._folder}: can't be written ({error.strerror}); nothing was changed") from error
-        if CORRECTIONS in staged:
-            flush_folder(self._folder / READY)
+        flush_folder(self._folder / READY)
         _move_in(self._folder)
+        _flush_names(self._folder, staged)
         self._former = _manifest_if_whole(self._folder)
         self._former_graph = self._former.graph if self._former is not None else _digest(self._folder / GRAPH_FILE)
         self._earlier.clear()
@@ -123,15 +127,25 @@ class NewResults:
         if is_staged and name == GRAPH_FILE:
             return Entry((self._next / name).stat().st_size, graph, graph)
         if is_staged:
-            return Entry.of(self._next / name, self._earlier.get(name, self._of or graph))
+            return self._laid_out(Entry.of(self._next / name, self._earlier.get(name, self._of or graph)), graph)
         if not (self._folder / name).is_file():
             return None
         former = self._former.files.get(name) if self._former is not None else None
-        return former or Entry.of(self._folder / name, self._former_graph)
+        return self._laid_out(former or Entry.of(self._folder / name, self._former_graph), graph)
+
+    def _laid_out(self, entry: Entry, graph: str) -> Entry:
+        """What is made of a graph is made of that in another layout, too."""
+        is_same = self._keeps_graph and entry.graph == self._former_graph
+        return replace(entry, graph=graph) if is_same else entry
+
+    @property
+    def _keeps_graph(self) -> bool:
+        """Whether the graph that stands in the folder stays, maybe in another layout."""
+        return not self._staged_graph or self._of == self._former_graph
 
     def _shown_corrections(self, staged: Collection[str]) -> str:
         """Digest of the corrections that the graph shows."""
-        if self._former is not None and not {GRAPH_FILE, CORRECTIONS} & set(staged):
+        if self._former is not None and self._keeps_graph and CORRECTIONS not in staged:
             return self._former.corrections
         if self._corrections is not None:
             return self._corrections
@@ -200,6 +214,8 @@ def _move_in(folder: Path) -> None:
         for name in _files_in(ready):
             (folder / name).parent.mkdir(parents=True, exist_ok=True)
             _replace(ready / name, folder / name)
+            if name == GRAPH_FILE:
+                sweep_shards(folder / name, of_whole=True)
         if (ready / MANIFEST).is_file():
             manifest = _manifest_if_whole(folder)
             gone = () if manifest is None else (name for name in RESULTS if name not in manifest.files)
@@ -229,6 +245,18 @@ def _check_place(place: Path) -> None:
         raise OutputError(f"{above}: not a folder but a file; choose another output folder")
     if not os.access(above, os.W_OK):
         raise OutputError(f"{above}: can't write there (Permission denied); choose another output folder")
+
+
+def _flush(folder: Path, names: Sequence[str]) -> None:
+    """Waits until files and their names are on the disk, so that no loss of power takes them once they count."""
+    for name in names:
+        flush(folder / name)
+    _flush_names(folder, names)
+
+
+def _flush_names(folder: Path, names: Sequence[str]) -> None:
+    for file in {path.parent: path for path in (folder / name for name in names)}.values():
+        flush_folder(file)
 
 
 def _replace(source: Path, target: Path) -> None:

@@ -93,8 +93,12 @@ def coming_into(folder: str | Path, graph: str | None = None) -> Iterator[Path]:
 
 
 @contextmanager
-def one_of_results(path: Path) -> Iterator[None]:
+def one_of_results(path: Path, graph: str | None = None) -> Iterator[None]:
     """What the block writes to a path renews the manifest of its folder, if that is one of results; else it is a file.
+
+    Args:
+        path: of the file.
+        graph: as of :func:`coming_into`.
 
     Raises:
         OutputError: another process is at work in the folder of results, or it can't be written.
@@ -102,7 +106,7 @@ def one_of_results(path: Path) -> Iterator[None]:
     if staged_path(path) != path or not (result_path(path.parent / MANIFEST)).is_file() or path.name not in RESULTS:
         yield
         return
-    with at_work_in(path.parent) as folder, new_results(folder):
+    with at_work_in(path.parent) as folder, new_results(folder, graph=graph):
         yield
 
 
@@ -153,23 +157,31 @@ def refuse_to_overwrite(folder: Path, files: Iterable[str | Path], what: str) ->
 def refuse_foreign(folder: Path) -> None:
     """Makes sure that nothing of others stands in a folder where a result goes.
 
+    What bears our mark is ours. In a folder that holds any such file, what has no mark of its own is ours, too, and a
+    file of nothing is what a loss of power left of a result; beside a manifest the graph is ours whatever it holds.
+
     Raises:
         OutputError: a file of somebody else has the name of a result.
     """
-    ours = _is_marked(folder / GRAPH_FILE, _MARKS[GRAPH_FILE])
-    for name in (MANIFEST, *RESULTS):
-        path = folder / name
+    there = [folder / name for name in (MANIFEST, *RESULTS) if (folder / name).exists()]
+    for path in there:
         if path.is_dir():
             raise OutputError(f"{path}: a folder stands where a result goes; choose another output folder")
-        if path.exists() and not (_is_marked(path, _MARKS[name]) if name in _MARKS else ours):
+    marked = {path.name for path in there if path.name in _MARKS and _MARKS[path.name] in _head_of(path)}
+    vouched = marked | ({GRAPH_FILE} if MANIFEST in marked else set())
+    for path in there:
+        # Some file systems leave zeros in place of what had not reached the disk.
+        is_rest = path.name not in _MARKS or not _head_of(path).strip(b"\0")
+        if path.name not in vouched and not (marked and is_rest):
             raise OutputError(f"{path}: not written by cadgraph, so it is left alone; choose another output folder")
 
 
-def _is_marked(path: Path, mark: bytes) -> bool:
+def _head_of(path: Path) -> bytes:
+    """The start of a file; of a pipe or a device words that bear no mark."""
     try:
         if not path.is_file():
-            return False
+            return b"never read"
         with path.open("rb") as file:
-            return mark in file.read(_HEAD)
+            return file.read(_HEAD)
     except OSError as error:
         raise OutputError(f"{path}: can't be read ({error.strerror}); choose another output folder") from error

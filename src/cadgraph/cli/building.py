@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 from rich.markup import escape
 
+from cadgraph._io.text import printable
 from cadgraph.cli.application import app
 from cadgraph.cli.asking import AskingOptions, asks
 from cadgraph.cli.build_command import BuildCommand
@@ -25,7 +26,7 @@ from cadgraph.cli.options import (
     read_flows,
     settings_of,
 )
-from cadgraph.cli.screen import bars, err, out, tell, tell_built, tell_next
+from cadgraph.cli.screen import bars, err, named, out, tell, tell_built, tell_next
 from cadgraph.config import Config
 from cadgraph.errors import CadGraphError
 
@@ -154,7 +155,7 @@ def _build_many(scenes: list[Path], output: Path, config: Config, **more: Any) -
     failed = [one for one in built if one.state == "failed"]
     if failed:
         for one in failed:
-            err.print(f"[dim]{escape(one.name):<{width}}[/]  {escape(one.reason)}")
+            err.print(f"{named(one.name, width)}  {escape(printable(one.reason))}")
         raise CadGraphError(
             f"{len(failed)} of {len(built)} scenes failed; the same command goes on with them, and keeps the others"
         )

@@ -4,15 +4,29 @@ from __future__ import annotations
 
 import dataclasses
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 from rich.markup import escape
 
 from cadgraph.cli.application import app
 from cadgraph.cli.options import ConfigOption, GraphArgument, SetOption, settings_of
-from cadgraph.cli.screen import note_line, out, say_json, summary_lines, tell_state
+from cadgraph.cli.screen import (
+    REMEDY,
+    counts,
+    named,
+    note_line,
+    out,
+    say_json,
+    state_lines,
+    summary_lines,
+    tell_warnings,
+)
 from cadgraph.config import to_toml
+
+if TYPE_CHECKING:
+    from cadgraph.model.graph import SceneGraph
+    from cadgraph.query.summary import Summary
 
 
 @app.command()
@@ -20,25 +34,79 @@ def show(
     graph: GraphArgument,
     as_json: Annotated[bool, typer.Option("--json", help="Print the summary as JSON.")] = False,
 ) -> None:
-    """Say what a graph holds."""
-    from cadgraph._io.manifest import GRAPH_FILE, behind, changed_by_others, of_an_earlier_graph
+    """Say what a graph holds, and what to mind: files that don't belong to it, a source that changed since.
+
+    With --json these are in "warnings". Of a run of many scenes each of them is told, with --json by its name.
+    """
+    names = _scenes_in(graph)
+    if not names:
+        summary, warnings = _told(graph)
+        if as_json:
+            say_json(_values(summary, warnings))
+            return
+        for line in summary_lines(summary):
+            out.print(line)
+        tell_warnings(warnings)
+        return
+    of_all = {name: _told(graph / name) for name in names}
+    if as_json:
+        say_json({name: _values(*told) for name, told in of_all.items()})
+        return
+    width = max(map(len, names))
+    for name, (summary, warnings) in of_all.items():
+        units = sum(map(len, summary.units.values()))
+        out.print(f"{named(name, width)}  {counts(summary.n_parts, units, summary.n_connected)}")
+        tell_warnings(warnings)
+
+
+def _scenes_in(folder: Path) -> list[str]:
+    """The scenes of a run of many; none where a folder holds a graph itself, or is a file."""
+    from cadgraph._io.manifest import GRAPH_FILE, MANIFEST
+    from cadgraph._io.staging import result_path
+    from cadgraph.session.many import graphs_in
+
+    if not folder.is_dir() or any(result_path(folder / name).is_file() for name in (GRAPH_FILE, MANIFEST)):
+        return []
+    return graphs_in(folder)
+
+
+def _told(path: Path) -> tuple[Summary, list[str]]:
+    """What a graph holds, and what to mind of its folder."""
     from cadgraph.model.graph import SceneGraph
     from cadgraph.query.summary import summarize
 
-    summary = summarize(SceneGraph.load(graph))
-    if as_json:
-        say_json(dataclasses.asdict(summary))
-        return
-    for line in summary_lines(summary):
-        out.print(line)
-    folder = graph if graph.is_dir() else graph.parent
-    if graph.is_dir() or graph.name == GRAPH_FILE:
-        tell_state(of_an_earlier_graph(folder), changed=changed_by_others(folder))
-        if behind(folder):
-            out.print(
-                f"[dim]{'mind':<15}[/]corrections.json: not what this graph shows; 'cadgraph build' or 'cadgraph view' "
-                "brings the graph up to it"
-            )
+    graph = SceneGraph.load(path)
+    return summarize(graph), _state(graph, path)
+
+
+def _values(summary: Summary, warnings: list[str]) -> dict[str, Any]:
+    return {**dataclasses.asdict(summary), "warnings": [*summary.warnings, *warnings]}
+
+
+def _state(graph: SceneGraph, path: Path) -> list[str]:
+    """What in the folder of a graph doesn't belong to it, or isn't what was written, in words.
+
+    Args:
+        graph: as it was read.
+        path: its file, or its folder.
+
+    Raises:
+        FormatError: the manifest is damaged.
+    """
+    from cadgraph._io.manifest import GRAPH_FILE, behind, changed_by_others, of_an_earlier_graph
+    from cadgraph.load.source_file import changed_source
+
+    folder = path if path.is_dir() else path.parent
+    changed = graph.spoilt_shards()
+    if not path.is_dir() and path.name != GRAPH_FILE:
+        return state_lines((), changed=changed)
+    told = state_lines(of_an_earlier_graph(folder), changed=(*changed_by_others(folder), *changed))
+    if behind(folder):
+        told.append(
+            "corrections.json: not what this graph shows; 'cadgraph build' or 'cadgraph view' brings the graph up to it"
+        )
+    source = changed_source(graph.source, folder)
+    return [*told, f"{source}; {REMEDY}"] if source else told
 
 
 @app.command()

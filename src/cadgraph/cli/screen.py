@@ -17,22 +17,22 @@ from rich.segment import Segment
 from rich.text import Text
 
 from cadgraph._io.progress import quiet
-from cadgraph._io.text import harmless
+from cadgraph._io.text import harmless, printable
 from cadgraph.cli.remaining import Remaining, told
 
 __all__ = [
-    "bars", "err", "note_line", "out", "say", "say_json", "summary_lines", "tell", "tell_built", "tell_lost",
-    "tell_next", "tell_state",
+    "REMEDY", "bars", "counts", "err", "named", "note_line", "out", "say", "say_json", "state_lines", "summary_lines",
+    "tell", "tell_built", "tell_lost", "tell_next", "tell_state", "tell_warnings",
 ]  # fmt: skip
 
-_REMEDY = "'cadgraph build' makes it anew"
+REMEDY = "'cadgraph build' makes it anew"
 _REMEDIES = {
     "report.html": "'cadgraph build' or 'relabel' draws it anew",
     "picture.png": "'cadgraph build' or 'relabel' draws it anew",
     "simulation.usda": "'cadgraph simulate' makes it anew",
     "devices.json": "'cadgraph simulate' makes it anew",
 }
-_MOST_NAMES = 12  # units that are named on one line
+_MOST_NAMES = 12  # units or files that are named on one line
 _MOST_PATHS = 3  # meshes that a note names
 
 _CONTROL = re.compile("[\x7f-\x9f\u2028-\u202e\u2066-\u2069]")  # what JSON leaves as it is and a terminal obeys
@@ -159,31 +159,60 @@ def tell_built(one: Any, width: int) -> None:
         one: the scene, as ``cadgraph.session.many`` has it.
         width: of the longest name.
     """
-    found = f"{_count(one.parts, 'part')}, {_count(one.units, 'unit')}, {_count(one.connections, 'connection')}"
+    found = counts(one.parts, one.units, one.connections)
     said = {
         "built": f"built in {one.seconds:.1f} s: {found}",
         "kept": f"kept as it was built before this run was stopped: {found}",
-        "failed": f"[bold red]failed[/]: {escape(one.reason)}",
+        "failed": f"[bold red]failed[/]: {escape(printable(one.reason))}",
     }
-    out.print(f"[dim]{escape(one.name):<{width}}[/]  {said[one.state]}")
+    out.print(f"{named(one.name, width)}  {said[one.state]}")
 
 
-def tell_state(earlier: Sequence[str], removed: Sequence[str] = (), changed: Sequence[str] = ()) -> None:
+def counts(parts: int, units: int, connections: int) -> str:
+    """What a graph holds, in a few words."""
+    return f"{_count(parts, 'part')}, {_count(units, 'unit')}, {_count(connections, 'connection')}"
+
+
+def named(name: str, width: int) -> str:
+    """The name of a scene at the start of its line; one that breaks lines can't pass for the line of another."""
+    return f"[dim]{escape(f'{printable(name):<{width}}')}[/]"
+
+
+def tell_state(earlier: Sequence[str], removed: Sequence[str] = ()) -> None:
     """Says which files of a folder don't belong to its graph, and how they come to.
+
+    Args:
+        earlier: names of those that show an earlier graph.
+        removed: names of those that went with it.
+    """
+    tell_warnings(state_lines(earlier, removed))
+
+
+def tell_warnings(warnings: Sequence[str]) -> None:
+    """Says what somebody should mind, a line each."""
+    for warning in warnings:
+        out.print(f"[dim]{'mind':<15}[/]{escape(warning)}")
+
+
+def state_lines(earlier: Sequence[str], removed: Sequence[str] = (), changed: Sequence[str] = ()) -> list[str]:
+    """Which files of a folder don't belong to its graph, and how they come to, in words.
 
     Args:
         earlier: names of those that show an earlier graph.
         removed: names of those that went with it.
         changed: names of those that are gone, or not what was written.
     """
+    told = []
     for names, what in (
         (earlier, "of an earlier graph"),
         (removed, "of the earlier graph, removed"),
         (changed, "changed or taken away since it was written"),
     ):
-        remedies = dict.fromkeys(_REMEDIES.get(name, _REMEDY) for name in names)
+        remedies = dict.fromkeys(_REMEDIES.get(name, REMEDY) for name in names)
         if names:
-            out.print(f"[dim]{'mind':<15}[/]{', '.join(names)}: {what}; {', '.join(remedies)}")
+            more = f" and {len(names) - _MOST_NAMES:,} more" if len(names) > _MOST_NAMES else ""
+            told.append(f"{', '.join(names[:_MOST_NAMES])}{more}: {what}; {', '.join(remedies)}")
+    return told
 
 
 def tell_consequences(consequences: Sequence[str], renamed: str = "") -> None:
@@ -221,7 +250,7 @@ def summary_lines(summary: Any) -> list[str]:
     rows = (
         (
             "source",
-            f"{escape(summary.source)}: {_count(summary.n_meshes, 'mesh', 'es')}, "
+            f"{escape(printable(summary.source))}: {_count(summary.n_meshes, 'mesh', 'es')}, "
             f"{_count(summary.n_triangles, 'triangle')}",
         ),
         ("parts", _of_them(summary.n_parts, summary.n_labelled, "labelled", "labelled", "not labelled")),

@@ -56,6 +56,14 @@ class TileCrew:
             raise ValueError(f"tiles is {tiles}; give at least 1")
         self._hands, self._folder, self._tiles, self._cut = hands, Path(folder).absolute(), tiles, cut
 
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """What went wrong on the way and was made good again, in words."""
+        n = self._hands.ended
+        times = "once" if n == 1 else f"{n} times"
+        told = f"{times} a process ended before its work was done, and that was done again"
+        return (f"{told}; where memory is short, give fewer --workers",) if n else ()
+
     def contacts(self, scene: Scene, properties: Properties, limit: float, progress: Progress = quiet) -> Contacts:
         """All pairs of meshes whose surfaces are at most ``limit`` apart [m]."""
         tile = self._cut(properties.aabb, self._count(scene.n_meshes))
@@ -108,7 +116,7 @@ class TileCrew:
         write_atomically(self._folder / "README.txt", _README)
         input_digest = digest_of(arrays)
         home = self._folder / f"scene-{input_digest}"
-        save_arrays(home, arrays)
+        save_arrays(home, arrays, input_digest)
         return home, self._folder / f"{name}-{digest_of({}, cadgraph.__version__, name, input_digest, settings)}"
 
     def _all(

@@ -33,6 +33,11 @@ class Hands(Protocol):
         """How many work at a time."""
         ...
 
+    @property
+    def ended(self) -> int:
+        """How often a process ended amid its calls, which were then tried again; as far as that is known."""
+        ...
+
     def run(
         self,
         function: Callable[..., Any],

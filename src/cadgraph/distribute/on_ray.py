@@ -97,6 +97,11 @@ class RayHands:
         there = max(1, int(self._ray.cluster_resources().get("CPU", 1)))
         return there if self._workers is None else min(there, self._workers)
 
+    @property
+    def ended(self) -> int:
+        """None that is known of: Ray tries calls again by itself, and tells nobody."""
+        return 0
+
     def run(
         self,
         function: Callable[..., Any],

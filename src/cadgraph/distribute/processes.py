@@ -11,15 +11,22 @@ from concurrent.futures import ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from multiprocessing import get_context, parent_process
+from multiprocessing.synchronize import Event
 from typing import Any
 
 from cadgraph.distribute.hands import Call, Failure
+from cadgraph.errors import CadGraphError
 from cadgraph.geometry.kernels.parallel import use_threads
 
 __all__ = ["Processes"]
 
+_SPAWN = get_context("spawn")
 _TRIES = 3  # of a call whose process ends
 _MOST_EACH, _LEAST_MOST = 4, 16  # processes for each processor, and what may be asked for anywhere
+_UNGUARDED = (
+    "the processes that share the work ended as they started. Each imports the script that asks for them: it must be a "
+    'file, with its own work under if __name__ == "__main__":'
+)
 _ENDED = "its process ended each time it was tried; for want of memory give fewer --workers, or more --tiles"
 
 
@@ -46,6 +53,8 @@ class Processes:
         self._workers = workers
         self._threads = threads or max(1, processors // workers)
         self._pool: ProcessPoolExecutor | None = None
+        self._ended = 0
+        self._begun = _SPAWN.Event()  # whether any process came as far as to its work
 
     def __enter__(self) -> Processes:
         return self
@@ -62,6 +71,11 @@ class Processes:
         """How many work at a time."""
         return self._workers
 
+    @property
+    def ended(self) -> int:
+        """How often a process ended amid its calls, which were then tried again."""
+        return self._ended
+
     def run(
         self,
         function: Callable[..., Any],
@@ -69,7 +83,11 @@ class Processes:
         told: Callable[[float], None] | None = None,
         each: Callable[[int, Any], None] | None = None,
     ) -> list[Any]:
-        """Runs calls; see ``Hands.run``."""
+        """Runs calls; see ``Hands.run``.
+
+        Raises:
+            CadGraphError: no process starts, as the script that each of them imports doesn't let it.
+        """
         results: dict[int, Any] = {}
 
         def done(number: int, result: Any) -> None:
@@ -105,7 +123,7 @@ class Processes:
             with _deaf_to_ctrl_c():
                 futures = {pool.submit(function, *calls[number]): number for number in numbers}
         except BrokenProcessPool:
-            self._drop()
+            self._drop_broken()
             return
         broken = False
         for future in as_completed(futures):
@@ -118,14 +136,22 @@ class Processes:
                 result = Failure(str(error) or type(error).__name__, error)
             done(futures[future], result)
         if broken:
-            self._drop()
+            self._drop_broken()
 
     def _running(self) -> ProcessPoolExecutor:
         if self._pool is None:
             self._pool = ProcessPoolExecutor(
-                self._workers, get_context("spawn"), initializer=_begin, initargs=(self._threads,)
+                self._workers, _SPAWN, initializer=_begin, initargs=(self._threads, self._begun)
             )
         return self._pool
+
+    def _drop_broken(self) -> None:
+        processes = list((getattr(self._pool, "_processes", None) or {}).values())
+        self._drop()
+        self._ended += 1
+        # Of one that the system ended, as for want of memory, the code is negative.
+        if not self._begun.is_set() and any((process.exitcode or 0) > 0 for process in processes):
+            raise CadGraphError(_UNGUARDED)
 
     def _drop(self) -> None:
         if self._pool is not None:
@@ -148,8 +174,9 @@ def _deaf_to_ctrl_c() -> Iterator[None]:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
-def _begin(threads: int) -> None:
+def _begin(threads: int, begun: Event) -> None:
     """What each process does first."""
+    begun.set()
     use_threads(threads)
     # Ctrl-C ends the parent, which then ends these.
     signal.signal(signal.SIGINT, signal.SIG_IGN)

@@ -75,7 +75,9 @@ def crew_for(
             with hands_for(target, workers, ray) as hands:
                 yield TileCrew(hands, folder, tiles)
         except BaseException as stop:
-            if folder.exists():
+            if next(folder.glob("*/result-*"), None) is None:
+                shutil.rmtree(folder, ignore_errors=True)
+            else:
                 stop.add_note("what tiles have found so far is kept, the same command goes on from there")
             raise
     shutil.rmtree(folder, ignore_errors=True)

@@ -18,7 +18,7 @@ from typing import Any, Literal
 import numpy as np
 import numpy.typing as npt
 
-from cadgraph._io.arrays import check_array, read_arrays
+from cadgraph._io.arrays import check_array, read_arrays, write_array
 from cadgraph._io.atomic import replacing, write_atomically
 from cadgraph._io.limits import Limit
 from cadgraph.errors import FormatError
@@ -82,20 +82,40 @@ def digest_of(arrays: Arrays, *words: object) -> str:
     return digest.hexdigest()
 
 
-def save_arrays(folder: Path, arrays: Arrays) -> None:
-    """Writes arrays into a folder of their own, unless they are there already.
+def save_arrays(folder: Path, arrays: Arrays, digest: str) -> None:
+    """Writes arrays into a folder of their own, unless they are there already, to the last bit.
+
+    They are on the disk before the folder is said to be whole. Where a crash or a disk spoilt them all the same, they
+    are written anew.
+
+    Args:
+        folder: that nobody else is at work in.
+        arrays: by name.
+        digest: of them, as ``digest_of`` makes it.
 
     Raises:
         OutputError: a file can't be written.
     """
-    if (folder / _DONE).exists():
+    if _holds(folder, digest):
         return
     shutil.rmtree(folder, ignore_errors=True)
-    for name, array in arrays.items():
-        with replacing(folder / f"{name}.npy") as beside, beside.open("wb") as file:
-            np.save(file, array, allow_pickle=False)
-    # Last: a folder without it is that of a run which was stopped while it wrote.
-    write_atomically(folder / _DONE, "")
+    try:
+        for name, array in arrays.items():
+            with replacing(folder / f"{name}.npy", durable=True) as beside:
+                write_array(beside, array)
+        # Last: a folder without it is that of a run which was stopped while it wrote.
+        write_atomically(folder / _DONE, f"{digest}\n", durable=True)
+    except BaseException:
+        shutil.rmtree(folder, ignore_errors=True)
+        raise
+
+
+def _holds(folder: Path, digest: str) -> bool:
+    """Whether a folder holds just the arrays of a digest; each is read whole."""
+    try:
+        return (folder / _DONE).read_bytes().strip() == digest.encode() and digest_of(open_arrays(folder)) == digest
+    except (OSError, FormatError):
+        return False
 
 
 def open_arrays(folder: Path) -> dict[str, npt.NDArray[Any]]:

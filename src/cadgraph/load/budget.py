@@ -36,6 +36,7 @@ class Budget:
         self._config = config
         self._size = size
         self._triangles = 0
+        self._watched = False
         self._grown = FREE + int(config.max_growth * size)
         self.most_meshes = min(config.max_meshes, self._grown)
         self.most_prims = min(config.max_prims, self._grown)
@@ -89,19 +90,20 @@ class Budget:
     def watch(self) -> None:
         """From here on this process may take only what arrays of such a file can need; to be repeated as it grows."""
         if self._size < _LARGE:
-            hold_to_more(_FREE_BYTES + _UNPACKED * self._size)
+            self._watched = hold_to_more(_FREE_BYTES + _UNPACKED * self._size)
 
     def unwatch(self) -> None:
         """Ends what ``watch`` began."""
         release()
 
     def refuse_arrays(self) -> None:
-        """Says that there was no more memory while ``watch`` was in force.
+        """Where there was no more memory, says that the file unpacks to too much; not where reading had too little.
 
         Raises:
-            LoadError: always.
+            LoadError: ``watch`` was in force, and left less than the process may take.
         """
-        self._refuse(f"{size_text(self._size)} unpack to more memory than any real scene", "load.max_growth")
+        if self._watched:
+            self._refuse(f"{size_text(self._size)} unpack to more memory than any real scene", "load.max_growth")
 
     def _check_growth(self, n: int, what: str) -> None:
         if n > self._grown:

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import suppress
 from pathlib import Path
 
 from cadgraph._io.digest import sha256_of
 from cadgraph.errors import LoadError
 from cadgraph.model.records import SourceRecord
 
-__all__ = ["find_source"]
+__all__ = ["changed_source", "find_source"]
 
 
 def find_source(
@@ -40,6 +41,22 @@ def find_source(
             return path
         told = told or difference
     raise LoadError(f"{told}; give that one with {option} FILE, or build the graph anew")
+
+
+def changed_source(source: SourceRecord, folder: Path) -> str:
+    """How the file that a graph was made from has changed since; empty where it hasn't, or can't be found or read.
+
+    Args:
+        source: of the graph.
+        folder: that holds the graph; the file is looked for as by :func:`find_source`.
+    """
+    if not source.path:
+        return ""
+    with suppress(LoadError):
+        places = dict.fromkeys(_places(Path(source.path), folder))
+        differences = [_difference(path, source, "") for path in places if _is_there(path, "")]
+        return differences[0] if all(differences) and differences else ""
+    return ""
 
 
 def _difference(path: Path, source: SourceRecord, option: str) -> str:

@@ -82,6 +82,10 @@ def read(path: Path, config: LoadConfig) -> Scene:
             stage, budget = open_stage(path, config, notes)
         except Tf.ErrorException as error:
             reason = _reason(error, path)
+            if "bad_alloc" in reason:
+                # Too little for a sound file, or a damaged one that promises too much: nobody can tell.
+                told = "opening it takes more memory than it may (load.memory)"
+                raise LoadError(f"{path}: {told}; raise that, or export it again where it is damaged") from None
             raise LoadError(f"{path}: not readable as USD ({reason}); it is damaged; copy or export it again") from None
         scene = _scene(stage, config, notes, budget, lambda: _take_warnings(delegate, path, notes))
     finally:

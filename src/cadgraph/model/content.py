@@ -110,6 +110,10 @@ class Content(ABC):
     def nodes_but_parts(self) -> tuple[Node, ...]:
         """All nodes that are no part."""
 
+    def spoilt(self) -> tuple[str, ...]:
+        """Files beside ``graph.json`` that hold rows of it and are gone or spoilt; each is read whole."""
+        return ()
+
     @abstractmethod
     def find(self, which: str, layers: tuple[type[Node], ...]) -> Node:
         """The node that is called so; see ``Names.find``."""
@@ -308,6 +312,9 @@ class ShardedContent(Content):
         with collector_paused():
             joined = {key: self._shards.joined(key, self._data.get(key, ())) for key in ROWS_OF}
             return validated({**rest, **joined}, self._where)
+
+    def spoilt(self) -> tuple[str, ...]:
+        return self._shards.spoilt()
 
     def of_layer(self, layer: type[AnyNode]) -> list[AnyNode]:
         if layer is Part and self._shards.holds("nodes", "part"):

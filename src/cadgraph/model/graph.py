@@ -18,10 +18,12 @@ from cadgraph._io.atomic import write_atomically
 from cadgraph._io.depth import MOST_LEVELS, is_too_deep
 from cadgraph._io.garbage import collector_paused
 from cadgraph._io.json_rows import read_json, write_json_rows
-from cadgraph._io.limits import GRAPH, decoded
+from cadgraph._io.limits import GRAPH, decoded, read_text_within
 from cadgraph._io.manifest import GRAPH_FILE, read_checked
 from cadgraph._io.results import settle_if_free
 from cadgraph._io.run_folder import one_of_results
+from cadgraph._io.shard_files import FOLDER, sweep_shards
+from cadgraph._io.staging import result_path
 from cadgraph.errors import FormatError, UnknownNode
 from cadgraph.model.content import Content, ShardedContent, WholeContent, validated
 from cadgraph.model.diagnostic import Diagnostic
@@ -46,12 +48,12 @@ from cadgraph.model.records import (
     Terminal,
     Unit,
 )
-from cadgraph.model.shards import ABOVE, FOLDER, cut, is_cut, sweep_shards
+from cadgraph.model.shards import ABOVE, Index, cut, is_cut
 
 if TYPE_CHECKING:
     import networkx
 
-__all__ = ["SceneGraph"]
+__all__ = ["SceneGraph", "shards_in"]
 
 FORMAT = "cadgraph"
 VERSION = 1
@@ -432,12 +434,12 @@ class SceneGraph:
             OutputError: it can't be written, or another process is at work in the folder of results.
         """
         target = Path(path)
-        whole = target.suffix == ".json"
+        whole = target.suffix == ".json" and not target.is_dir()
         target = target if whole else target / GRAPH_FILE
         above = _shard_above(self.config) if shard_above is None else shard_above
         content = self.document.content()
         parted = None if whole or not self._may_be_cut(above) else cut(content, above)
-        with one_of_results(target):
+        with one_of_results(target, self.digest):
             if not whole:
                 sweep_shards(target)
             if parted is not None:
@@ -445,7 +447,16 @@ class SceneGraph:
                 for name, packed in shards:
                     write_atomically(target.parent / FOLDER / name, packed)
             write_json_rows(target, content, rows=ROWS_OF)
+        if target.name == GRAPH_FILE:
+            sweep_shards(target, of_whole=True)
         return target
+
+    def spoilt_shards(self) -> tuple[str, ...]:
+        """The shards that are gone, or not what ``graph.json`` was written with, by their paths beside it.
+
+        Each is read whole. Of a graph in one file there are none.
+        """
+        return self._content.spoilt()
 
     def _may_be_cut(self, above: int) -> bool:
         """Whether so many rows of any kind are there that they go into shards."""
@@ -545,6 +556,26 @@ class SceneGraph:
         if name not in names:
             where = "the graph's vocabulary" if group is None else f"group {group!r}"
             raise ValueError(f"{where} has no name {name!r}; it has {', '.join(map(str, names))}")
+
+
+def shards_in(folder: Path) -> int | None:
+    """Above how many rows a kind must go into shards so that a graph is laid out as the one in a folder.
+
+    Args:
+        folder: of results.
+
+    Returns:
+        For :meth:`SceneGraph.save`; None: as the settings say, and so where no graph can be read.
+    """
+    if not (folder / FOLDER).is_dir():
+        return None
+    try:
+        data = read_json(read_text_within(result_path(folder / GRAPH_FILE), GRAPH, FormatError, ""))
+        index = Index.model_validate(data["shards"]) if is_cut(data) else Index(runs=())
+        fewest = min((run.rows for run in index.runs if run.key != "lookup"), default=0)
+        return 0 if 0 < fewest <= _shard_above(data.get("config", {})) else None
+    except (FormatError, ValueError, RecursionError):
+        return None
 
 
 def _shard_above(config: Mapping[str, Any]) -> int:

@@ -14,7 +14,6 @@ from __future__ import annotations
 import bisect
 import gzip
 import hashlib
-import re
 import zlib
 from collections import Counter, OrderedDict, deque
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -27,16 +26,15 @@ from typing import Any
 from pydantic import Field, ValidationError
 
 from cadgraph._io.json_rows import json_row, read_json
+from cadgraph._io.shard_files import FOLDER, NAME
 from cadgraph._io.staging import READY
 from cadgraph._io.text import natural_key
 from cadgraph.errors import FormatError
 from cadgraph.model.record import Record
 from cadgraph.model.records import ROWS_OF
 
-__all__ = ["ABOVE", "FOLDER", "ROWS", "SHARDED", "Index", "Run", "Shard", "Shards", "cut", "is_cut", "sweep_shards"]
+__all__ = ["ABOVE", "ROWS", "SHARDED", "Index", "Run", "Shard", "Shards", "cut", "is_cut"]
 
-FOLDER = "graph-shards"
-"""The folder beside ``graph.json`` that holds the shards."""
 ABOVE = 200_000
 """Kinds of more rows than that go into shards: as one document they would take some hundred megabytes."""
 ROWS = 5_000
@@ -49,7 +47,6 @@ _KIND_OF = {"nodes": "layer", "edges": "kind"}  # the key that says of what kind
 _MOST = 1 << 29  # [bytes] of a shard as text
 _KEPT = 8  # shards that are kept in memory
 _AT_ONCE = 2  # shards that are gzipped at a time
-_NAME = re.compile(r"[a-z_-]{1,40}-[0-9]{5,7}-[0-9a-f]{16}\.jsonl\.gz")
 
 
 class Shard(Record):
@@ -63,7 +60,7 @@ class Shard(Record):
         last: of its last one.
     """
 
-    file: str = Field(pattern=f"^{_NAME.pattern}$")
+    file: str = Field(pattern=f"^{NAME.pattern}$")
     rows: int = Field(ge=1)
     sha256: str
     first: str = ""
@@ -215,24 +212,6 @@ def _labels(document: Mapping[str, Any]) -> list[list[Any]]:
     ]
 
 
-def sweep_shards(graph: Path) -> None:
-    """Removes the shards that a ``graph.json`` does not name: those of graphs before it.
-
-    Args:
-        graph: the file. Where it can't be read, all stay.
-    """
-    folder = graph.parent / FOLDER
-    if not folder.is_dir() or folder.is_symlink():
-        return
-    try:
-        text = graph.read_text(encoding="utf-8") if graph.is_file() else ""
-    except (OSError, UnicodeDecodeError):
-        return
-    for file in folder.iterdir():
-        if _NAME.fullmatch(file.name) and file.name not in text:
-            file.unlink(missing_ok=True)
-
-
 class Shards:
     """The rows of a graph that are in shards, read when they are asked for; the last few shards stay in memory.
 
@@ -264,6 +243,19 @@ class Shards:
         except ValidationError as error:
             steps = ".".join(str(step) for step in error.errors()[0]["loc"])
             raise FormatError(f"{where}: shards.{steps} is damaged; build the graph anew") from None
+
+    def spoilt(self) -> tuple[str, ...]:
+        """The shards that are gone, or not what the index was written with, by their paths; each is read whole."""
+        return tuple(
+            f"{FOLDER}/{shard.file}" for run in self.index.runs for shard in run.shards if self._is_spoilt(shard)
+        )
+
+    def _is_spoilt(self, shard: Shard) -> bool:
+        try:
+            self._lines(shard)
+        except FormatError:
+            return True
+        return False
 
     def count(self, key: str, kind: str) -> int:
         """How many rows of a kind are in shards."""

@@ -14,7 +14,7 @@ from cadgraph.load.source_file import find_source
 from cadgraph.model.corrections import read_history
 from cadgraph.model.edits import Correction, Tag
 from cadgraph.model.given_labels import split_label
-from cadgraph.model.graph import SceneGraph
+from cadgraph.model.graph import SceneGraph, shards_in
 from cadgraph.model.records import Part
 from cadgraph.model.vocabulary import Vocabulary
 from cadgraph.session.reopen import config_of, reopen
@@ -219,7 +219,7 @@ def _changed(
             done = change(session)
             seen, graph = session.analysis.scene, session.make_graph(clock)
             clock("write graph", 0)
-            stage_graph(seen, graph, source, target)
+            stage_graph(seen, graph, source, target, shard_above=shards_in(target))
             outcome = write_rest(seen, graph, target, new, config.report if report else None, clock)
     return Amendment(
         outcome,

@@ -7,7 +7,7 @@ import json
 import shutil
 import time
 from collections.abc import Callable, Mapping, Sequence
-from contextlib import suppress
+from contextlib import ExitStack, chdir, suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Literal
@@ -15,8 +15,9 @@ from typing import Any, Literal
 import cadgraph
 from cadgraph._io.atomic import write_atomically
 from cadgraph._io.digest import sha256_of
-from cadgraph._io.manifest import behind, changed_by_others, manifest_in
+from cadgraph._io.manifest import GRAPH_FILE, behind, changed_by_others, manifest_in
 from cadgraph._io.run_folder import at_work_in
+from cadgraph._io.text import natural_key
 from cadgraph.config import Config
 from cadgraph.distribute.hands import Call, Failure
 from cadgraph.distribute.site import hands_for
@@ -24,7 +25,7 @@ from cadgraph.errors import CadGraphError, FormatError
 from cadgraph.model.graph import SceneGraph
 from cadgraph.session.run import run
 
-__all__ = ["FOLDER", "BuiltScene", "build_many", "folders_of"]
+__all__ = ["FOLDER", "BuiltScene", "build_many", "folders_of", "graphs_in"]
 
 FOLDER = ".cadgraph-scenes"
 """The name of the run folder, within that of the results: it says which scenes are built, until all of them are."""
@@ -36,7 +37,7 @@ class BuiltScene:
 
     Args:
         name: of its folder.
-        scene: its file.
+        scene: its file, as it was given.
         state: ``"built"``; ``"kept"``: this run was stopped before, and had built it by then; ``"failed"``.
         reason: that it failed, in one line.
         seconds: that it took where it was built now [s].
@@ -89,6 +90,12 @@ def folders_of(scenes: Sequence[Path]) -> list[str]:
     return [scene.stem for scene in scenes]
 
 
+def graphs_in(folder: Path) -> list[str]:
+    """The names of the folders in a folder that hold a graph each, as ``build_many`` makes them, in order."""
+    found = (graph.parent.name for graph in folder.glob(f"*/{GRAPH_FILE}") if graph.is_file())
+    return sorted((name for name in found if not name.startswith(".")), key=natural_key)
+
+
 def build_many(
     scenes: Sequence[str | Path],
     folder: str | Path,
@@ -126,9 +133,8 @@ def build_many(
         CadGraphError: the cluster can't be used.
         OutputError: the folder can't be written.
     """
-    # Another process, or machine, may stand in another folder.
-    files = [Path(scene).absolute() for scene in scenes]
-    names = folders_of([Path(scene) for scene in scenes])
+    files = [Path(scene) for scene in scenes]
+    names, here = folders_of(files), str(Path.cwd())
     asked = _Settings(config or Config(), _absolute(labels), _absolute(vocabulary), report)
     found: dict[int, BuiltScene] = {}
 
@@ -143,7 +149,7 @@ def build_many(
     with at_work_in(folder) as target:
         records = target.absolute() / FOLDER
         calls: list[Call] = [
-            (str(file), str(target.absolute() / name), str(records / f"{name}.json"), asked)
+            (here, str(file), str(target.absolute() / name), str(records / f"{name}.json"), asked)
             for file, name in zip(files, names, strict=True)
         ]
         try:
@@ -158,30 +164,44 @@ def build_many(
     return [found[number] for number in range(len(files))]
 
 
-def _build_one(scene: str, folder: str, record: str, settings: _Settings) -> BuiltScene:
+def _build_one(here: str, scene: str, folder: str, record: str, settings: _Settings) -> BuiltScene:
     """Builds a scene, or finds that this run had built it before it was stopped.
+
+    Args:
+        here: the folder that the caller stands in. This process, which may be on another machine, does its work there,
+            so that paths mean the same, and the graph names its source as it was given.
+        scene: its file.
+        folder: for its results.
+        record: the note on it.
+        settings: of all scenes.
 
     Raises:
         CadGraphError: it can't be built.
     """
     start, target, note = time.monotonic(), Path(folder), Path(record)
-    key = f"{settings.digest} {_digest_if_there(Path(scene))}"
-    kept = _kept(note, key, target)
-    if kept is not None:
-        return _with_counts(BuiltScene(target.name, Path(scene), "kept"), kept)
-    outcome = run(
-        scene,
-        target,
-        settings.config,
-        labels=settings.labels,
-        vocabulary=settings.vocabulary,
-        report=settings.report,
-    )
+    with ExitStack() as standing:
+        file = Path(scene)
+        try:
+            standing.enter_context(chdir(here))
+        except OSError:  # not on this machine
+            file = Path(here, scene)
+        key = f"{settings.digest} {_digest_if_there(file)}"
+        kept = _kept(note, key, target)
+        if kept is not None:
+            return _with_counts(BuiltScene(target.name, file, "kept"), kept)
+        outcome = run(
+            file,
+            target,
+            settings.config,
+            labels=settings.labels,
+            vocabulary=settings.vocabulary,
+            report=settings.report,
+        )
     counts = _counts_of(outcome.graph)
     manifest = manifest_in(target)
     said = {"key": key, "graph": manifest.graph if manifest is not None else "", "counts": counts}
     write_atomically(note, json.dumps(said, indent=1) + "\n")
-    return _with_counts(BuiltScene(target.name, Path(scene), "built", seconds=time.monotonic() - start), counts)
+    return _with_counts(BuiltScene(target.name, file, "built", seconds=time.monotonic() - start), counts)
 
 
 def _counts_of(graph: SceneGraph) -> dict[str, int]:
@@ -199,7 +219,7 @@ def _kept(note: Path, key: str, target: Path) -> dict[str, int] | None:
         counts = {name: int(said["counts"][name]) for name in ("parts", "units", "connections")}
         manifest = manifest_in(target)
         whole = manifest is not None and manifest.graph == said["graph"] and said["key"] == key
-        if whole and not changed_by_others(target) and not behind(target):
+        if whole and not (changed_by_others(target) or behind(target) or SceneGraph.load(target).spoilt_shards()):
             return counts
     except (OSError, ValueError, KeyError, TypeError, FormatError):
         pass

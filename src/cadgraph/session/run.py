@@ -24,7 +24,7 @@ from cadgraph.load import load
 from cadgraph.model.corrections import CorrectionsFile
 from cadgraph.model.crew import Crew
 from cadgraph.model.given_labels import GivenLabel, read_labels
-from cadgraph.model.graph import SceneGraph
+from cadgraph.model.graph import SceneGraph, shards_in
 from cadgraph.model.scene import Scene
 from cadgraph.model.vocabulary import Vocabulary, default_vocabulary, read_vocabulary
 from cadgraph.session.ahead import imported_meanwhile
@@ -63,7 +63,8 @@ class Outcome:
         seconds: wall time of each stage [s].
         earlier: names of the files in the folder that still show an earlier graph, as a report that was not drawn anew.
         removed: names of the files that went with the earlier graph.
-        remarks: which labels and corrections of the earlier graph this one has not, and how they come back.
+        remarks: which labels and corrections of the earlier graph this one has not, and how they come back; and that
+            work was done again after a process was ended.
     """
 
     graph: SceneGraph
@@ -138,7 +139,7 @@ def run(
             # What the stages have found and nobody holds any more leads back to itself in many places.
             gc.collect()
         outcome = write_results(scene, graph, source, target, config.report if report else None, clock)
-        return replace(outcome, remarks=remarks)
+        return replace(outcome, remarks=(*remarks, *(crew.remarks if crew is not None else ())))
 
 
 def begin(
@@ -279,7 +280,7 @@ def write_graph(
         LoadError: the source can't be opened any more.
     """
     with new_results(target, corrections=corrections) as new:
-        stage_graph(scene, graph, source, target)
+        stage_graph(scene, graph, source, target, shard_above=shards_in(target))
         _keep_report(target, new)
 
 
@@ -299,7 +300,15 @@ def write_report_anew(session: Session, target: Path) -> None:
         write_report(session.analysis.scene, session.graph, target / "report.html", session.config.report)
 
 
-def stage_graph(scene: Scene, graph: SceneGraph, source: str | Path, target: Path, progress: Progress = quiet) -> None:
+def stage_graph(
+    scene: Scene,
+    graph: SceneGraph,
+    source: str | Path,
+    target: Path,
+    progress: Progress = quiet,
+    *,
+    shard_above: int | None = None,
+) -> None:
     """Writes a graph and its label layer; within ``new_results``, with whatever else is coming into the folder.
 
     Args:
@@ -308,6 +317,7 @@ def stage_graph(scene: Scene, graph: SceneGraph, source: str | Path, target: Pat
         source: the scene's file.
         target: the folder; it exists.
         progress: called with the name of a stage.
+        shard_above: as of :meth:`SceneGraph.save`.
 
     Raises:
         OutputError: a file can't be written.
@@ -315,7 +325,7 @@ def stage_graph(scene: Scene, graph: SceneGraph, source: str | Path, target: Pat
     """
     from cadgraph.export.usd import write_semantics
 
-    graph.save(target)
+    graph.save(target, shard_above)
     progress("write labels", 0)
     write_semantics(scene, graph, source, target / "semantics.usda")
 

@@ -24,6 +24,7 @@ from cadgraph.errors import LoadError, MissingExtra
 from cadgraph.load.finish import finish
 from cadgraph.load.sandbox.exchange import write_scene
 from cadgraph.load.sandbox.memory import hold_to
+from cadgraph.load.sandbox.trouble import trouble_of
 
 if TYPE_CHECKING:
     from cadgraph.config import LoadConfig
@@ -79,6 +80,12 @@ if __name__ == "__main__":
     # Ctrl-C reaches both processes; the caller decides, and ends this one.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     _end_with_caller(Path(sys.argv[1]))
-    main(Path(sys.argv[1]))
+    try:
+        main(Path(sys.argv[1]))
+    except (OSError, MemoryError) as failure:
+        trouble = trouble_of(failure)
+        if trouble is None:
+            raise
+        os._exit(trouble)
     # All is written. To take the scene and the libraries down piece by piece takes time, and some of them crash at it.
     os._exit(0)

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from cadgraph._io.arrays import check_array
+from cadgraph._io.arrays import check_array, write_array
 from cadgraph._io.limits import EXCHANGE_HEAD, read_text_within
 from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.facts import Fact, StatedLink
@@ -33,7 +33,7 @@ def write_scene(scene: Scene, folder: Path) -> None:
     texts: dict[str, int] = {}
     arrays |= {"facts": _numbered(scene.facts, texts), "links": _numbered(scene.links, texts)}
     for name, array in arrays.items():
-        np.save(folder / f"{name}.npy", array, allow_pickle=False)
+        write_array(folder / f"{name}.npy", array)
     rest = {
         "placed": scene.placement is not None,
         "paths": scene.paths,

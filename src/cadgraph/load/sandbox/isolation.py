@@ -20,7 +20,8 @@ from cadgraph._io.search_path import search_path
 from cadgraph._io.text import printable
 from cadgraph.errors import LoadError, MissingExtra
 from cadgraph.load.sandbox.exchange import read_scene
-from cadgraph.load.sandbox.memory import allowed_bytes, ran_out
+from cadgraph.load.sandbox.memory import allowed_bytes
+from cadgraph.load.sandbox.trouble import Trouble, in_words, trouble_in, trouble_of
 from cadgraph.model.scene import Scene
 
 if TYPE_CHECKING:
@@ -52,34 +53,50 @@ def read_isolated(module: str, file: Path, given: str, config: LoadConfig) -> Sc
         LoadError: the file can't be read, the process crashed, or it took longer than ``config.timeout``.
         MissingExtra: what the file holds needs a package that isn't installed.
     """
-    with _exchange_folder() as folder:
-        memory = allowed_bytes(config.memory)
-        request = {
-            "module": module,
-            "path": str(file.absolute()),
-            "config": config.model_dump(),
-            "memory": memory,
-        }
-        (folder / "request.json").write_text(json.dumps(request), encoding="utf-8")
-        code = _run(folder, given, config.timeout)
-        if (folder / "error.json").exists():
-            told = _told(folder, given)
-            if isinstance(told, list):
-                raise MissingExtra(*told)
-            raise LoadError(_with_given_path(told, file, given))
-        if code != 0:
-            raise LoadError(f"{given}: {_reason(code, folder / 'stderr.txt', memory)}")
-        try:
-            return read_scene(folder)
-        except (OSError, EOFError, ValueError, KeyError, TypeError) as error:
-            raise LoadError(f"{given}: the reading process left no whole result ({error})") from error
+    memory = allowed_bytes(config.memory)
+    try:
+        with _exchange_folder() as folder:
+            return _read_in(folder, module, file, given, config, memory)
+    except OSError as error:
+        trouble = trouble_of(error)
+        reason = f"can't write to a temporary folder ({error.strerror or error}); set TMPDIR to one that takes files"
+        if trouble is not None:
+            reason = in_words(trouble, tempfile.gettempdir(), memory)
+        raise LoadError(f"{given}: {reason}") from error
+
+
+def _read_in(folder: Path, module: str, file: Path, given: str, config: LoadConfig, memory: int | None) -> Scene:
+    """As :func:`read_isolated`, by way of a folder.
+
+    Raises:
+        OSError: something can't be written to the folder.
+    """
+    request = {
+        "module": module,
+        "path": str(file.absolute()),
+        "config": config.model_dump(),
+        "memory": memory,
+    }
+    (folder / "request.json").write_text(json.dumps(request), encoding="utf-8")
+    code = _run(folder, given, config.timeout)
+    if (folder / "error.json").exists() and code not in list(Trouble):
+        said = _told(folder, given)
+        if isinstance(said, list):
+            raise MissingExtra(*said)
+        raise LoadError(_with_given_path(said, file, given))
+    if code != 0:
+        raise LoadError(f"{given}: {_reason(code, folder / 'stderr.txt', memory)}")
+    try:
+        return read_scene(folder)
+    except (OSError, EOFError, ValueError, KeyError, TypeError) as error:
+        raise LoadError(f"{given}: the reading process left no whole result ({error})") from error
 
 
 def _told(folder: Path, given: str) -> str | list[str]:
     """The error that the reading process left: its text, or purpose and name of an extra that is missing."""
     try:
-        told = json.loads(read_text_within(folder / "error.json", NOTE, LoadError, "export the file again"))
-        return [str(word) for word in told[:2]] if isinstance(told, list) and len(told) == 2 else str(told)
+        said = json.loads(read_text_within(folder / "error.json", NOTE, LoadError, "export the file again"))
+        return [str(word) for word in said[:2]] if isinstance(said, list) and len(said) == 2 else str(said)
     except ValueError:
         raise LoadError(f"{given}: reading it failed; the file is likely damaged, export it again") from None
 
@@ -182,11 +199,9 @@ def _reason(code: int, stderr: Path, memory: int | None) -> str:
     with stderr.open("rb") as file:
         file.seek(max(0, stderr.stat().st_size - _STDERR_LIMIT))
         said = file.read().decode("utf-8", "replace").strip()
-    if ran_out(said):
-        given = "" if memory is None else f" within {memory / 1e9:.3g} GB"
-        return (
-            f"there is not enough memory to read it{given}; close other programs, split the scene or raise load.memory"
-        )
+    trouble = Trouble(code) if code in list(Trouble) else trouble_in(said)
+    if trouble is not None:
+        return in_words(trouble, tempfile.gettempdir(), memory)
     if code < 0:
         try:
             what = signal.Signals(-code).name

@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 import os
-import re
 import sys
 from contextlib import suppress
 from pathlib import Path
 
-__all__ = ["allowed_bytes", "hold_to", "hold_to_more", "ran_out", "release"]
+__all__ = ["allowed_bytes", "hold_to", "hold_to_more", "release"]
 
 _SHARE = 0.9  # of what the machine has: the rest is for the system and the process that asked
 _LEAST = 1 << 30  # libraries alone take a fifth of it
 _CONTAINER = ("/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes")
 _held = False  # whether this is a reading process
-_OUT = re.compile(r"MemoryError|bad_alloc|[Cc]annot allocate memory|[Oo]ut of memory|unable to allocate")
 
 
 def allowed_bytes(gigabytes: float | None) -> int | None:
@@ -65,21 +63,27 @@ def hold_to(most: int | None) -> None:
         _held = True
 
 
-def hold_to_more(more: int) -> None:
+def hold_to_more(more: int) -> bool:
     """Until ``release``, lets this process take only so much more than it has; only where ``hold_to`` was called.
 
     Args:
         more: bytes.
+
+    Returns:
+        Whether that is less than it may take by ``hold_to``.
     """
     if not _held or sys.platform != "linux":
-        return
+        return False
     with suppress(ImportError, OSError, ValueError, IndexError):
         import resource
 
         pages = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[5])
         hard = resource.getrlimit(resource.RLIMIT_DATA)[1]
         most = pages * os.sysconf("SC_PAGE_SIZE") + more
-        resource.setrlimit(resource.RLIMIT_DATA, (most if hard == resource.RLIM_INFINITY else min(most, hard), hard))
+        is_less = hard == resource.RLIM_INFINITY or most < hard
+        resource.setrlimit(resource.RLIMIT_DATA, (most if is_less else hard, hard))
+        return is_less
+    return False
 
 
 def release() -> None:
@@ -91,12 +95,3 @@ def release() -> None:
 
         hard = resource.getrlimit(resource.RLIMIT_DATA)[1]
         resource.setrlimit(resource.RLIMIT_DATA, (hard, hard))
-
-
-def ran_out(said: str) -> bool:
-    """Whether the last words of a process tell that it got no more memory.
-
-    Args:
-        said: what it wrote to its standard error.
-    """
-    return _OUT.search(said[-4000:]) is not None
