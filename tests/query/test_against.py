@@ -52,3 +52,10 @@ def test_a_bolt_leads_nowhere():
     plant = tank_line().add(shapes.box((0.02, 0.02, 0.06), (1, 0, 1 + R + 0.03)), FASTENER, "bolt")
     plant.add(turned(shapes.cylinder(0.02, 0.12), (1, 0, 1 + R + 0.12), (0, 0, 1)), VALVE, "valve")
     assert doubts(plant) == []
+
+
+def test_a_pipe_in_no_line_over_a_piece_that_has_no_label():
+    plant = tank_line().add(shapes.box((0.06, 0.06, 0.04), (1, 0, 1 + R + 0.02)), None)
+    plant.add(shapes.box((0.03, 0.03, 0.2), (1, 0, 1 + R + 0.14)), PIPE, "pipe")
+    (text,) = doubts(plant)
+    assert "(likely pipe), in no network, stands against part-" in text

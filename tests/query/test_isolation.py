@@ -374,7 +374,12 @@ VALVE_BEFORE = {"group": "Valve assembly", "name": "valve"}
 
 @pytest.mark.parametrize(
     ("source", "before", "doubted"),
-    [("network", VALVE_BEFORE, True), ("network", None, False), ("geometry", None, False)],
+    [
+        ("network", VALVE_BEFORE, True),
+        ("network", {"group": "Gauge assembly"}, False),
+        ("network", None, True),
+        ("geometry", None, False),
+    ],
 )
 def test_a_gauge_that_by_its_shape_was_something_else_is_a_doubt(source, before, doubted):
     more = {} if before is None else {"before": before}

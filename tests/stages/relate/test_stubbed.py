@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 import shapes
-from piping import PIPE, STEEL, TANK, R, pipe, turned
+import tubes
+from piping import PIPE, PUMP, STEEL, TANK, R, pipe, turned
 from sketch import Sketch
 
 THIN, HOLE = 0.0169, 0.0142
@@ -97,3 +98,33 @@ def test_the_order_of_the_parts_changes_nothing():
     there, back = run(UP, SIDE), run(SIDE, UP)
     lengths = [sorted(np.round([link.length for link in one.connected().network.links], 6)) for one in (there, back)]
     assert lengths[0] == lengths[1]
+
+
+CASING = shapes.box((0.5, 0.3, 0.4), (0, 0, 0))
+
+
+def pumped(start, end, bore=HOLE, more=()):
+    sketch = Sketch()
+    sketch.add(CASING, PUMP, "pump casing", source="author")
+    sketch.add(pipe(start, end, THIN, bore), group=None)
+    for mesh, name in more:
+        sketch.add(mesh, PUMP, name, source="author")
+    return sketch
+
+
+def test_a_hollow_tube_on_the_casing_of_a_pump_leaves_the_joint_open_and_a_shaft_does_not():
+    assert open_joints(pumped((0, 0.15, 0), (0, 0.4, 0))) == [(1, 0, "mount", 0.3)]
+    assert open_joints(pumped((0, 0.15, 0), (0, 0.4, 0), None)) == []
+
+
+def test_the_guard_of_a_coupling_leads_nowhere():
+    motor = shapes.box((0.4, 0.3, 0.3), (0.63, 0, 0))
+    assert open_joints(pumped((0.25, 0, 0), (0.42, 0, 0), more=[(motor, "motor")])) == []
+
+
+@pytest.mark.parametrize(("likely", "found"), [(0.45, [(1, 0, "tap", 0.2)]), (0.3, [])])
+def test_a_conical_socket_that_nobody_is_sure_of_leaves_the_joint_open(likely, found):
+    sketch = run()
+    socket = tubes.pipe([(1, 0, R), (1, 0, R + 0.04)], [0.03, 0.02], 24, caps=True)
+    sketch.add(socket, likely={(PIPE, "branch outlet"): likely})
+    assert open_joints(sketch) == found
