@@ -3,10 +3,11 @@
 import numpy as np
 import pytest
 
+import shapes
 from cadgraph.stages.relate.piping import Group
 from cadgraph.stages.relate.recover import ARRANGEMENT, FITTING, LABELLED, SIZE, recover_units
-from piping import GAUGE, PIPE, PUMP, STEEL, TANK, VALVE, R, pipe
-from sketch import SIDES, VOCABULARY, Sketch, around, block
+from piping import GAUGE, PIPE, PUMP, STEEL, TANK, VALVE, R, pipe, turned
+from sketch import SIDES, VOCABULARY, Sketch, X, around, block
 
 EQUIPMENT = "Equipment"
 WIDE = 2 * R  # diameter of the pipes [m]
@@ -184,3 +185,13 @@ def test_a_disc_on_the_end_of_a_line_closes_it():
     assert taken(0.4 * R, R)
     assert not taken(0.8 * R, R)
     assert not taken(0.4 * R, 1.4 * R)
+
+
+@pytest.mark.parametrize(("likely", "found"), [({(VALVE, "valve"): 0.46}, ["valve"]), ({(PUMP, "pump"): 0.46}, [])])
+def test_a_body_between_a_line_and_the_flange_of_a_pump_is_a_valve(likely, found):
+    sketch = Sketch()
+    sketch.add(block((0.089, 0, 0), (0.178, 0.15, 0.15)), likely=likely)
+    sketch.pipe((-1, 0, 0), (0, 0, 0))
+    sketch.add(turned(shapes.cylinder(0.08, 0.4), (0.378, 0, 0), X), PUMP, "pump", source="author")
+    groups = recover_units(sketch.piping()).groups
+    assert [group.unit_type for group in groups if 0 in group.parts] == found

@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 
 import shapes
+import tubes
 from cadgraph.model.labels import Guess, Label
 from cadgraph.stages.relate import trace
-from piping import PIPE, PUMP, STEEL, VALVE, R, bend, pipe, ring, turned
+from piping import PIPE, PUMP, STEEL, VALVE, R, bend, merged, pipe, ring, turned
 from runs import BRIDGE, run, touching
 from sketch import Sketch, X, block
 
@@ -253,3 +254,18 @@ def test_a_bend_between_two_pipes_is_followed_whatever_its_label():
     sketch.pipe((1.076, 0.076, 0), (1.076, 1, 0))
     assert lines(sketch) == [0, 1, 2]
     assert np.isclose(sketch.piping().lines[0].length, 0.076 * np.pi / 2, rtol=0.05)
+
+
+@pytest.mark.parametrize(("name", "sure", "found"), [(None, 0.55, True), (None, 0.75, False), ("valve", 0.55, False)])
+def test_a_bend_with_its_flanges_is_one_where_the_labeler_has_no_name_for_it(name, sure, found):
+    angles = np.linspace(0, np.pi / 2, 7)
+    arc = [(0.06 * np.sin(a), 0.06 * (1 - np.cos(a)), 0) for a in angles]
+    way = [(-0.02, 0, 0), *arc, (0.06, 0.08, 0)]
+    flanges = [
+        turned(shapes.cylinder(R, 0.01), at, axis) for at, axis in (((-0.015, 0, 0), X), ((0.06, 0.075, 0), (0, 1, 0)))
+    ]
+    sketch = Sketch()
+    sketch.add(merged(tubes.pipe(way, R / 2, 16, caps=True), *flanges), VALVE, name, sure)
+    sketch.pipe((-1, 0, 0), (-0.02, 0, 0))
+    sketch.pipe((0.06, 0.08, 0), (0.06, 1, 0))
+    assert (0 in lines(sketch)) is found

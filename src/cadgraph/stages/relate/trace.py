@@ -34,8 +34,8 @@ _Value = TypeVar("_Value")
 _RATIO, _OWN_RATIO = 0.3, 0.9
 # A short cylinder of a pipe's own size is a piece of it where the labeler is less sure than this of the device.
 _SAME_RATIO, _UNSURE = 0.97, 0.9
-# What bends or branches between its mouths, all of its surface along that line, is a fitting where the labeler is less
-# sure than this of a device: an angle or three-way valve has a bonnet, a gauge its case.
+# What bends or branches between its mouths, all of its surface along that line, is a fitting where the labeler has no
+# name for it and is less sure than this of a device: an angle or three-way valve has a bonnet, a gauge its case.
 _UNSURE_OF_FITTING = 0.7
 _WITH_PIPES = frozenset({"valve", "pump"})
 _IN_LINE = frozenset({"flow meter", "sight glass"})  # devices that stand in a line and may be shaped like a piece of it
@@ -292,7 +292,7 @@ def _single_ratio(given: RelateInput, roles: Roles, part: int, line: Centreline)
 
 def _is_pipe(label: Label | None, line: Centreline) -> bool:
     """Whether a part has the line of a plain tube, or that of a fitting where its label is not sure of a device."""
-    unsure = label is not None and label.confidence < _UNSURE_OF_FITTING
+    unsure = label is not None and label.name is None and label.confidence < _UNSURE_OF_FITTING
     return is_plain_tube(line) or (unsure and is_fitting(line))
 
 
