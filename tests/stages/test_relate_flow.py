@@ -7,7 +7,7 @@ import shapes
 from cadgraph.model.parts import Link, Network, UnitParts
 from cadgraph.model.records import Contains, System
 from cadgraph.stages.relate.flow import stated_flow
-from cadgraph.stages.relate.size import nominal_size, sizes_along
+from cadgraph.stages.relate.size import nominal_size, sizes_along, table_of
 from piping import PIPE, PUMP, TANK, VALVE, Plant, R, bend, connections, merged, tags, turned, valve_mesh
 
 
@@ -117,6 +117,28 @@ def test_sizes_are_listed_where_they_change():
     pieces = [(1.0, 0.0603), (0.5, 0.0603), (0.01, 0.15), (0.3, 0.054), (2.0, 0.0483), (1.0, 0.0603)]
     assert sizes_along(pieces) == (50, 40, 50)
     assert sizes_along([]) == ()
+
+
+@pytest.mark.parametrize(
+    ("diameters", "size"),
+    [
+        ((0.041, 0.053, 0.070), 40),
+        ((0.041, 0.053, 0.0424), 32),  # a third of it is pipe
+        ((0.0405, 0.053, 0.0603), 32),  # a polygon that is as wide as neither
+        ((0.0424, 0.0603), 32),
+        ((), 32),
+    ],
+)
+def test_sizes_are_those_of_hygienic_tubes_where_most_of_a_plant_is_made_of_them(diameters, size):
+    table = table_of([(1.0, diameter) for diameter in diameters])
+    assert nominal_size(0.041, table) == size
+    assert sizes_along([(1.0, 0.041)], table) == (size,)
+
+
+def test_lines_of_hygienic_tubes_have_their_sizes():
+    plant = Plant().pipe((0, 0, 0), (1, 0, 0), radius=0.0205, bore=0.019)
+    plant.pipe((0, 1, 0), (1, 1, 0), radius=0.0265, bore=0.025)
+    assert sorted(c.size for c in connections(plant.graph())) == [40, 50]
 
 
 def test_systems_hold_their_units_lengths_and_sizes_in_the_graph():

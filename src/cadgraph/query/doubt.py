@@ -220,7 +220,9 @@ def _outside(network: Network, found: Against) -> str:
     """What stands against a piece, in words."""
     if found.place is None:
         label = network.graph.part(found.part).label
-        return f"{found.part} (likely {label.name or label.group if label else 'a device'}), in no network, stands against"
+        return (
+            f"{found.part} (likely {label.name or label.group if label else 'a device'}), in no network, stands against"
+        )
     node = network.places[found.place]
     if not isinstance(node, Unit):
         return f"{network.what(found.place)} {network.name(found.place)} of another line lies at"

@@ -2,6 +2,7 @@
 
 ======================  ============================================================================================
 ``pipes``               outer diameters by nominal size (DN), and the wall where the size is built by the generator
+``hygienic_tubes``      the same of tubes for food and pharmacy, whose sizes are others
 ``flanges``             class 150
 ``face_to_face``        lengths of valves from flange face to flange face, class 150 (ASME B16.10)
 ``face_to_face_en558``  the same after EN 558, by basic series
@@ -39,9 +40,13 @@ def read_table(name: str) -> tuple[Mapping[str, str], ...]:
 
 
 @cache
-def outer_diameters() -> tuple[tuple[int, float], ...]:
-    """Nominal size (DN) and outer diameter of pipes [m], by every standard that has a table of its own."""
-    return tuple(dict.fromkeys((int(row["dn"]), float(row["outer_mm"]) / 1000) for row in read_table("pipes")))
+def outer_diameters(table: str = "pipes") -> tuple[tuple[int, float], ...]:
+    """Nominal size (DN) and outer diameter of pipes [m], by every standard that is in a table.
+
+    Args:
+        table: ``pipes`` or ``hygienic_tubes``.
+    """
+    return tuple(dict.fromkeys((int(row["dn"]), float(row["outer_mm"]) / 1000) for row in read_table(table)))
 
 
 @cache

@@ -13,7 +13,7 @@ from cadgraph.model.parts import Link, Network, Opening, Place, UnitParts
 from cadgraph.model.scene import Floats
 from cadgraph.stages.relate.attach import Attachments
 from cadgraph.stages.relate.network import Drawing
-from cadgraph.stages.relate.size import nominal_size, sizes_along
+from cadgraph.stages.relate.size import nominal_size, sizes_along, table_of
 from cadgraph.stages.relate.span import Net, Span
 
 __all__ = ["make_network"]
@@ -58,7 +58,8 @@ def make_network(
     )
     opened, renumbered = _used_openings(spans, units, drawing)
     directed = [span if number[span.a] <= number[span.b] else span.reversed() for span in spans]
-    links = [_link(span, number, opened, renumbered) for span in directed]
+    table = table_of(piece[:2] for span in directed for piece in span.pieces)
+    links = [_link(span, number, opened, renumbered, table) for span in directed]
     links.sort(key=lambda link: (link.source, link.target, link.length, link.via, link.path))
     return Network(opened, places, tuple(links), _systems(links))
 
@@ -205,7 +206,11 @@ def _port_key(opening: Opening) -> tuple[float, ...]:
 
 
 def _link(
-    span: Span, number: Mapping[int, int], units: Sequence[UnitParts], renumbered: Sequence[Mapping[int, int]]
+    span: Span,
+    number: Mapping[int, int],
+    units: Sequence[UnitParts],
+    renumbered: Sequence[Mapping[int, int]],
+    table: str,
 ) -> Link:
     source, target = number[span.a], number[span.b]
     ports = [
@@ -213,8 +218,8 @@ def _link(
         for node, port in ((source, span.port_a), (target, span.port_b))
     ]
     points, length = _to_middles(span, (source, target), ports, units)
-    sizes = sizes_along([piece[:2] for piece in span.pieces])
-    size, bore = _main_size(span)
+    sizes = sizes_along([piece[:2] for piece in span.pieces], table)
+    size, bore = _main_size(span, table)
     diameter = size / 1000 if size is not None else bore
     path = _distinct(points)
     return Link(
@@ -253,11 +258,11 @@ def _half(unit: UnitParts, port: int) -> Floats | None:
     return np.asarray(np.mean([opening.point for opening in unit.openings], axis=0), np.float64)
 
 
-def _main_size(span: Span) -> tuple[int | None, float | None]:
+def _main_size(span: Span, table: str) -> tuple[int | None, float | None]:
     """The nominal size of most of a run, and its bore, else its outer diameter."""
     lengths: dict[int | None, float] = {}
     for length, outer, _ in span.pieces:
-        size = nominal_size(outer)
+        size = nominal_size(outer, table)
         lengths[size] = lengths.get(size, 0.0) + length
     if not lengths:
         return None, None
