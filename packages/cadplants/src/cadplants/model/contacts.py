@@ -11,9 +11,9 @@ import numpy as np
 
 from cadgraph.geometry.components import connected_sets
 from cadgraph.model.scene import Scene
-from cadplants.model.plant import Assembly, Plant
+from cadplants.model.plant import Assembly, Component, Plant
 
-__all__ = ["APART", "measured", "met", "whole"]
+__all__ = ["APART", "measured", "met", "on_ground", "whole"]
 
 APART = 0.01
 """Clusters are further apart than this [m]: the contact distance (paper, section III-B: DBSCAN's eps)."""
@@ -63,6 +63,22 @@ def _hangs(assembly: Assembly) -> bool:
         seen |= new
         front += new
     return len(seen) == len(beside)
+
+
+def on_ground(plant: Plant, ground: Component) -> Plant:
+    """The plant on its ground, with all else that touches.
+
+    Args:
+        plant: whose builders say what touches in it.
+        ground: what it stands on; what stands on it is found by the surfaces, within the plant's looseness.
+    """
+    standing = replace(plant, components=(*plant.components, ground))
+    last = plant.n_meshes
+    said = {(min(pair), max(pair)) for pair in plant.contacts}
+    near = sorted((pair, gap) for pair, gap in _near(standing).items() if pair not in said)
+    limit = max(plant.looseness, _TOUCH)
+    more = tuple(pair for pair, gap in near if gap <= (limit if last in pair else 0.0))
+    return replace(standing, contacts=(*plant.contacts, *more))
 
 
 def measured(plant: Plant) -> Plant:
