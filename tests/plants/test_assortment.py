@@ -4,10 +4,13 @@ from functools import partial
 import numpy as np
 import pytest
 
+from cadgraph.load import load
+from cadgraph.model.truth import Truth
 from cadgraph.model.vocabulary import default_vocabulary
-from cadplants import STYLES, make
+from cadplants import STYLES, make, write_usd
 from cadplants.presets.assortment import FAMILIES, draw_modeling_style, make_assortment
 from cadplants.presets.taste import Taste
+from cadplants.truth.truth_check import prove
 from cadplants.truth.truth_writer import truth_of
 
 pytestmark = pytest.mark.slow
@@ -46,6 +49,20 @@ def test_everything_stands_in_a_cluster_of_its_own(plants):
     for plant in plants:
         assert all(c.cluster or c.name == "ground" for c in plant.components)
         assert len({c.cluster for c in plant.components}) > 3
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_the_truth_holds_as_it_is_written(seed, tmp_path):
+    write_usd(make("assortment", seed), tmp_path / "plant.usdc")
+    proof = prove(load(tmp_path / "plant.usdc"), Truth.load(tmp_path / "plant.truth.json"))
+    assert proof.lines() == ()
+    assert proof.n_checked["contact"] > 200
+
+
+@pytest.mark.parametrize("style", STYLES)
+def test_the_truth_holds_in_every_style(style):
+    plant = make("assortment", 3, style)
+    assert prove(plant.scene(), Truth.from_json(truth_of(plant))).lines() == ()
 
 
 def test_connections_join_what_there_is(plants):

@@ -48,6 +48,16 @@ def test_the_truth_of_every_hand_holds(style):
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("style", ["bim", "game", "scan"])
+@pytest.mark.parametrize("preset", ["station", "field"])
+def test_what_stands_on_coarse_shells_and_uneven_ground_is_told(preset, style):
+    plant = make(preset, 0, style)
+    assert proof_of(plant).lines() == ()
+    ground = next(i for i, c in enumerate(plant.components) if c.name == "ground")
+    assert sum(ground in pair for pair in plant.contacts) > 10
+
+
+@pytest.mark.slow
 @pytest.mark.long
 @pytest.mark.parametrize("preset", ["skid", "riser", "tank"])
 def test_fifty_seeds_hold(preset):

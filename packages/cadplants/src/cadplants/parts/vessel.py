@@ -19,8 +19,9 @@ from cadplants.solids.polygon import circle, rounded_rectangle
 from cadplants.solids.transforms import at, looking, spun
 from cadplants.styles.modeling_style import ModelingStyle
 
-__all__ = ["Nozzle", "Tank", "tank"]
+__all__ = ["Nozzle", "Tank", "skin", "tank"]
 
+_FEW = 16  # sides of a shell where round things have so many at most
 _WALL = 0.006  # m
 _STRAIGHT = 0.04  # m, straight flange of a 2:1 head (ASME BPVC VIII-1, UG-32)
 
@@ -105,7 +106,7 @@ def tank(
         nozzles: in the order of the result.
         n_legs: legs evenly round the shell.
     """
-    sides = 16 if style.sides[1] <= 16 else 72
+    sides = _FEW if _is_coarse(style) else 72
     shell, head = _shell_solids(radius, height, sides)
     low = clearance + radius / 2 + _STRAIGHT
     color, group = style.color("tank"), "Tank"
@@ -138,6 +139,24 @@ def tank(
     )
     whole = Assembly(named, whole.contacts, whole.units)
     return Tank(whole, tuple(faces), tuple(flanges), low + height + _STRAIGHT + radius / 2)
+
+
+def _is_coarse(style: ModelingStyle) -> bool:
+    return style.sides[1] <= _FEW
+
+
+def skin(radius: float, angle: float, style: ModelingStyle) -> float:
+    """How far from its axis the shell of a tank is, for what stands on it [m].
+
+    Args:
+        radius: of the shell [m].
+        angle: about the axis [rad].
+        style: that models it; a shell of few sides lies well inside its radius between its corners.
+    """
+    if not _is_coarse(style):
+        return radius
+    half = np.pi / _FEW
+    return float(radius * np.cos(half) / np.cos(angle % (2 * half) - half))
 
 
 def _legs(height: float, radius: float, count: int, style: ModelingStyle) -> Assembly:

@@ -22,6 +22,7 @@ from cadplants.faults.defects import loosen
 from cadplants.faults.retessellate import retold
 from cadplants.lines.layout import Inline, Laid, Run, Tap, lay
 from cadplants.lines.route import Route
+from cadplants.model.contacts import measured, met
 from cadplants.model.family import Family, Model, as_assembly, as_device
 from cadplants.model.plant import Assembly, Component, Device, Plant, gather
 from cadplants.model.standards import ELBOW_LONG_RADIUS, PIPES, SIZES
@@ -66,7 +67,7 @@ def make_assortment(
             are.
 
     Returns:
-        The plant with its labels and families. Contacts are recorded along the lines only.
+        The plant with its labels and families; contacts and clusters are those that its surfaces have.
 
     Raises:
         ValueError: ``without`` names a family that there is not.
@@ -92,13 +93,14 @@ def make_assortment(
                 "z", float(work.rng.choice([0, 0.5, 1, 1.5])) * np.pi
             )
             one = _stand(work, style, f"S{j + 1}").placed(place)
-        parts.append(_finished(one, style, seed + 1000 * k))
+        # What touches as it is meant is measured before gaps are left, and what touches all the same at the end.
+        parts.append(_finished(met(one), style, seed + 1000 * k))
         budget -= sum(c.name not in _FASTENERS for c in one.components)
         if budget < 0 and k > 1:
             break
     if plant.of("ground").rng.random() < _GROUND:
         parts.append(_ground(gather(parts), main))
-    return Plant.of(gather(parts), "assortment", seed, plant.whole.used)
+    return measured(Plant.of(gather(parts), "assortment", seed, plant.whole.used))
 
 
 def _check_names(without: frozenset[str]) -> None:

@@ -12,6 +12,7 @@ import numpy as np
 
 from cadplants.faults.defects import Defects, degrade
 from cadplants.faults.omissions import OMISSIONS, omitted
+from cadplants.model.contacts import measured
 from cadplants.model.plant import Plant
 from cadplants.presets.assortment import make_assortment
 from cadplants.presets.taste import Taste
@@ -131,8 +132,7 @@ def make_in_system(seed: int, system: str, without: frozenset[str] = frozenset()
         without: names of families that are left out, or what comes before their slash.
 
     Returns:
-        The plant with its labels and families. Contacts that were meant are recorded along the lines only; where its
-        joints were spoilt, also all that its surfaces have.
+        The plant with its labels and families; contacts and clusters are those that its surfaces have.
 
     Raises:
         ValueError: an unknown system, or an unknown family.
@@ -142,7 +142,7 @@ def make_in_system(seed: int, system: str, without: frozenset[str] = frozenset()
     number = 1 + list(SYSTEMS).index(system)
     drawn = draw_system(np.random.default_rng([seed, 26, number]), system)
     plant = make_assortment(_APART * number + seed, drawn.style, without, drawn.taste)
-    return replace(degrade(omitted(plant, drawn.omissions), drawn.defects, seed), seed=seed)
+    return replace(measured(degrade(omitted(plant, drawn.omissions), drawn.defects, seed)), seed=seed)
 
 
 _WAYS = {"cable tray": 3.0, "conduit": 1.5}

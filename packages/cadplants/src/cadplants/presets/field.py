@@ -11,13 +11,13 @@ import numpy as np
 from cadplants.builder.params import Apart
 from cadplants.families import FAMILIES
 from cadplants.families.vessels.vessel import level_gauge
-from cadplants.model.contacts import met, whole
+from cadplants.model.contacts import met, on_ground, whole
 from cadplants.model.family import as_assembly
 from cadplants.model.plant import Assembly, Component, Plant, Unit, gather
 from cadplants.parts.access import platform, platform_with_stairs
 from cadplants.parts.electrical import cabinet, lamp, sign
 from cadplants.parts.enclosure import fence, pillar
-from cadplants.parts.vessel import Nozzle, tank
+from cadplants.parts.vessel import Nozzle, skin, tank
 from cadplants.presets.pumps import make_pumps
 from cadplants.presets.rack import make_rack
 from cadplants.presets.riser import make_riser
@@ -70,8 +70,6 @@ def make_field(seed: int = 0, style: ModelingStyle | None = None) -> Plant:
         parts.append(one.placed(pose))
     main = style or replace(STYLES["plant-design"], **_FINE)
     parts += [part.marked(style=main.name) for part in (*_inside(main, flips, rng), *_yard(main, flips))]
-    whole = gather(parts)
-    standing = [i for i, c in enumerate(whole.components) if abs(float(c.vertices[:, 2].min())) < 1e-9]
     slab = Component(
         box((2 * _HALF[0] + 6, 2 * _HALF[1] + 6, 0.2), (0, 0, -0.1)),
         "Structural element",
@@ -80,9 +78,7 @@ def make_field(seed: int = 0, style: ModelingStyle | None = None) -> Plant:
         cluster="",
         style=main.name,
     )
-    count = len(whole.components)
-    whole = gather([whole, Assembly((slab,))], [(i, count) for i in standing])
-    return Plant.of(whole, "field", seed, [*used, main])
+    return on_ground(Plant.of(gather(parts), "field", seed, [*used, main]), slab)
 
 
 def _inside(style: ModelingStyle, flips: tuple[int, int], rng: np.random.Generator) -> list[Assembly]:
@@ -121,7 +117,8 @@ def _storage(style: ModelingStyle, rng: np.random.Generator) -> Assembly:
     vessel = tank("T-9", style, radius, height, 0.35, nozzles).assembly
     low = 0.35 + radius / 2 + 0.04
     family = FAMILIES["tank/dished on legs"]
-    parts = level_gauge(radius, low + 0.3, low + height - 0.3, -0.3 * np.pi, style, rng)
+    angle = -0.3 * np.pi
+    parts = level_gauge(skin(radius, angle, style), low + 0.3, low + height - 0.3, angle, style, rng)
     unit = "G-9"
     gauge = tuple(
         Component(p.solid, p.group, p.name, style.color(p.color), unit=unit, family="level gauge", granularity="pieces")

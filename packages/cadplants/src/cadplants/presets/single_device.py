@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from typing import Any, cast
 
 from cadplants.builder.device import Device, Maker
-from cadplants.model.contacts import met
+from cadplants.model.contacts import measured, met
 from cadplants.model.family import Family, as_assembly, as_device
 from cadplants.model.plant import Plant
 from cadplants.presets.taste import ALL_FAMILIES
@@ -106,4 +106,4 @@ def make_device(
     unit = "X-1" if family.unit else ""
     made = as_device(family, model, style, unit).assembly if family.place == "inline" else None
     assembly = met(made or as_assembly(family, model, style, unit)).marked(cluster="device", style=style.name)
-    return Plant.of(assembly, name, seed, [style])
+    return measured(Plant.of(assembly, name, seed, [style]))

@@ -12,7 +12,7 @@ from cadplants.lines.choice import Choice
 from cadplants.lines.instrument import tee_at
 from cadplants.lines.route import Route
 from cadplants.lines.run import Inline, Run
-from cadplants.model.contacts import met
+from cadplants.model.contacts import met, on_ground
 from cadplants.model.plant import Assembly, Component, Plant, Unit, gather
 from cadplants.model.standards import PIPES, TEE_CENTER_TO_END
 from cadplants.parts.brand import Brand, draw_brand, dressed
@@ -21,7 +21,7 @@ from cadplants.parts.drum import drum
 from cadplants.parts.fastener import SUPPORT_REACH
 from cadplants.parts.pump import Pump, pump
 from cadplants.parts.structure import post
-from cadplants.parts.vessel import Nozzle, Tank, tank
+from cadplants.parts.vessel import Nozzle, Tank, skin, tank
 from cadplants.presets.site import Placed, Site, Work
 from cadplants.solids.mesh_ops import box
 from cadplants.solids.transforms import at
@@ -141,7 +141,8 @@ def _feed_tank(work: _Work) -> tuple[Tank, int]:
 
 def _level_gauge(style: ModelingStyle, radius: float, low: float, high: float, rng: np.random.Generator) -> Assembly:
     """A level gauge between two cocks on the shell, which reads the level of the tank."""
-    parts = level_gauge(radius, low, high, 0.06 * np.pi, style, rng)
+    angle = 0.06 * np.pi
+    parts = level_gauge(skin(radius, angle, style), low, high, angle, style, rng)
     components = tuple(
         Component(
             p.solid, p.group, p.name, style.color(p.color), unit="L-1", family="level gauge", granularity="pieces"
@@ -363,7 +364,4 @@ def _on_slab(plant: Plant, style: ModelingStyle) -> Plant:
     middle = (low + high) / 2
     solid = box((float(high[0] - low[0]), float(high[1] - low[1]), 0.2), (float(middle[0]), float(middle[1]), -0.1))
     slab = Component(solid, "Structural element", "ground", style.color("ground"), style=style.name)
-    standing = [i for i, c in enumerate(plant.components) if abs(float(c.vertices[:, 2].min())) < 1e-9]
-    count = plant.n_meshes
-    contacts = (*plant.contacts, *((i, count) for i in standing))
-    return replace(plant, components=(*plant.components, slab), contacts=contacts)
+    return on_ground(plant, slab)

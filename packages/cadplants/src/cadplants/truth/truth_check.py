@@ -13,19 +13,17 @@ from cadgraph.geometry.contact.pairs import distances, find_contacts
 from cadgraph.model.parts import Contacts
 from cadgraph.model.scene import Floats, Scene
 from cadgraph.model.truth import Truth, TruthConnection, TruthLine, TruthUnit
+from cadplants.model.contacts import APART
 
-__all__ = ["APART", "Finding", "Proof", "prove"]
-
-APART = 0.01
-"""Clusters have to be further apart than this [m]: the contact distance (paper, section III-B: DBSCAN's eps)."""
+__all__ = ["Finding", "Proof", "prove"]
 
 _TOUCH = 2e-6
 """What is at most this far apart touches [m] (ours: USD holds float32, which is 1e-6 m at 16 m)."""
 
 _ROUND = 0.002
-_COARSE = 0.2
-"""How far a pipe's surface may stand out of its nominal diameter [m], and a share of its radius: a bend of few pieces
-is drawn round its arc (ours: with two pieces for 90 degrees, at 1.5 diameters, that is 17 %)."""
+_COARSE, _COARSE_BEND = 0.2, 0.55
+"""How far a pipe's surface may stand out of its nominal diameter [m], and a share of its radius, straight and in bends:
+a bend of few pieces is drawn round its arc (ours: with two pieces for 90 degrees, at 3.5 diameters, that is 53 %)."""
 
 _REACH = 0.06
 """How far from the axis of its line, beyond the pipe's skin, a device on it may begin [m]: the branch outlet and the
@@ -105,6 +103,15 @@ class _Case:
         wide = [(x, y) for a, b in pairs for x in copies.get(a, [a]) for y in copies.get(b, [b])]
         wide += [(x, y) for same in copies.values() for k, x in enumerate(same) for y in same[k + 1 :]]
         return {self.key(a, b): (a, b) for a, b in wide}
+
+    def devices(self) -> list[tuple[str, ...]]:
+        """The meshes of each device whose parameters are known."""
+        return [tuple(row.get("meshes", ())) for row in (self.truth.model_extra or {}).get("devices") or ()]
+
+    def devices_of(self, unit: TruthUnit) -> set[str]:
+        """The meshes of the devices that have meshes of a unit."""
+        own = set(unit.meshes)
+        return {mesh for device in self.devices() if not own.isdisjoint(device) for mesh in device}
 
     def key(self, a: str, b: str) -> tuple[int, int]:
         one, other = self.index[a], self.index[b]
@@ -209,7 +216,7 @@ def _apart(case: _Case) -> _Outcomes:
 
 
 def _units(case: _Case) -> _Outcomes:
-    """The meshes of a unit hang together, be it by their gaskets and bolts."""
+    """The meshes of a unit hang together, be it by gaskets and bolts or by what else its device has, a pallet, say."""
     if case.truth.contacts is None:
         return
     hidden = set(case.truth.hidden)
@@ -217,13 +224,14 @@ def _units(case: _Case) -> _Outcomes:
     loose = {row.mesh for row in case.truth.meshes if row.name in _BETWEEN} - taken
     beside = _neighbors((case.scene.paths[a], case.scene.paths[b]) for a, b in case.told())
     for unit in case.truth.units or ():
-        n_pieces = _count_pieces([mesh for mesh in unit.meshes if mesh not in hidden], loose, beside)
+        own = [mesh for mesh in unit.meshes if mesh not in hidden]
+        n_pieces = _count_pieces(own, loose | case.devices_of(unit), beside)
         yield None if n_pieces <= 1 else (f"{unit.id} falls into {n_pieces} pieces", unit.meshes)
 
 
 def _count_pieces(own: Sequence[str], loose: Collection[str], beside: Mapping[str, Collection[str]]) -> int:
     """Into how many pieces some meshes fall that loose ones may hold together."""
-    between = {mesh for one in own for mesh in beside.get(one, ()) if mesh in loose}
+    between = {mesh for one in own for mesh in beside.get(one, ()) if mesh in loose} - set(own)
     near = [(a, b) for a in (*own, *between) for b in beside.get(a, ())]
     return sum(not set(own).isdisjoint(piece) for piece in connected_sets([*own, *sorted(between)], near))
 
@@ -237,15 +245,20 @@ def _neighbors(joined: Iterable[tuple[str, str]]) -> dict[str, set[str]]:
 
 
 def _tubes(case: _Case) -> _Outcomes:
-    """Pipes and elbows lie round the axis of their line."""
+    """Pipes and elbows lie round the axis of their line; those of devices, and spools with their flanges, need not."""
     lines = {line.id: line for line in case.truth.lines or ()}
     slack = _ROUND + (case.truth.looseness or 0.0)
+    free = {*case.truth.hidden, *(mesh for device in case.devices() for mesh in device)}
     for row in case.truth.meshes:
         line = lines.get(row.line or "")
-        if line is None or line.outer is None or row.name not in _ON_AXIS or row.mesh in case.truth.hidden:
+        if line is None or line.outer is None or row.name not in _ON_AXIS or row.mesh in free:
             continue
-        room = slack + _COARSE * line.outer / 2 + max(0.0, -case.truth.gaps.get(row.mesh, 0.0))
-        away = float(_to_axis(case.vertices(row.mesh), line)[0].max())
+        if row.build == "spool":
+            continue
+        apart, along = _to_axis(case.vertices(row.mesh), line)
+        coarse = _COARSE_BEND if _has_bend(line, float(along.min()), float(along.max())) else _COARSE
+        room = slack + coarse * line.outer / 2 + max(0.0, -case.truth.gaps.get(row.mesh, 0.0))
+        away = float(apart.max())
         wrong = f"{row.mesh} reaches {1000 * away:.1f} mm from the axis of {line.id}, more than {500 * line.outer:.1f}"
         yield None if away <= line.outer / 2 + room else (wrong, (row.mesh,))
 
@@ -317,6 +330,13 @@ def _to_axis(places: Floats, line: TruthLine) -> tuple[Floats, Floats]:
     return away[row, best], starts[best] + share[row, best] * lengths[best]
 
 
+def _has_bend(line: TruthLine, low: float, high: float) -> bool:
+    """Whether the axis of a line turns between two chainages [m]."""
+    points = np.array(line.points)
+    starts = np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))[:-1]
+    return bool(((low < starts) & (starts < high)).any())
+
+
 def _at(line: TruthLine, s: float) -> Floats:
     """The point at a chainage [m]; its ends beyond them."""
     points = np.array(line.points)
@@ -326,9 +346,9 @@ def _at(line: TruthLine, s: float) -> Floats:
 
 
 def _to_unit(case: _Case, unit: TruthUnit, place: Floats) -> float:
-    """How far a place is from the nearest box of a unit's meshes [m]."""
+    """How far a place is from the nearest box of the meshes of a unit, or of what else its device has [m]."""
     least = np.inf
-    for mesh in unit.meshes:
+    for mesh in {*unit.meshes, *case.devices_of(unit)}:
         vertices = case.vertices(mesh)
         outside = np.maximum(np.maximum(vertices.min(axis=0) - place, place - vertices.max(axis=0)), 0.0)
         least = min(least, float(np.linalg.norm(outside)))
