@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -15,6 +16,7 @@ from cadgraph.errors import FormatError
 
 if TYPE_CHECKING:
     from cadgraph.config import LoadConfig
+    from cadgraph.model.scene import Scene
     from cadgraph.model.truth import Truth
     from cadplants.builder.device import Device
     from cadplants.faults.defects import Defects
@@ -140,7 +142,7 @@ def _metres_in(unit: str | None) -> float | None:
 
 
 def _refuse_shared_truth(output: Path) -> None:
-    """Refuses a file whose truth would take the place of that of another file, which it may not fit."""
+    """Refuses a file whose truth would take the place of that of another file, or of one that was made by hand."""
     from cadplants import truth_path
     from cadplants.writers import FORMATS
 
@@ -149,6 +151,19 @@ def _refuse_shared_truth(output: Path) -> None:
         other = output.with_suffix(suffix)
         if suffix != output.suffix.lower() and truth.exists() and other.exists():
             raise ValueError(f"{truth} is the truth of {other}; give {output.name} another name or folder")
+    if truth.exists() and not _was_generated(truth):
+        raise ValueError(
+            f"{truth} was not generated and would be lost; move it away, or give {output.name} another name or folder"
+        )
+
+
+def _was_generated(truth: Path) -> bool:
+    """Whether a truth is that of a generated plant, which can be had again."""
+    try:
+        said = json.loads(truth.read_bytes())
+    except ValueError:
+        return False
+    return isinstance(said, dict) and {"format", "preset", "seed"} <= said.keys()
 
 
 def _refuse(settings: dict[str, Any], form: str) -> None:
@@ -252,13 +267,37 @@ def check_plant(
     from cadplants import truth_path
     from cadplants.truth.truth_check import prove
 
-    proof = prove(load(scene), Truth.load(truth or truth_path(scene)))
+    file = truth or truth_path(scene)
+    known = Truth.load(file)
+    read = load(scene, _as_written(known))
+    proof = prove(read, known)
+    if any(finding.code == "mesh" for finding in proof.findings):
+        raise FormatError(f"{file}: {_why_other_paths(scene, read, known)}")
     out.print(f"checked {', '.join(f'{n:,} {code}' for code, n in proof.n_checked.items())}")
+    for what in proof.open:
+        out.print(f"not checked: {escape(what)}")
     if not proof.holds:
         for line in proof.lines():
             out.print(escape(line))
-        raise FormatError(f"{truth or truth_path(scene)}: the geometry contradicts it in {len(proof.findings)} places")
-    out.print("the truth holds")
+        count = len(proof.findings)
+        raise FormatError(f"{file}: the geometry contradicts it in {count} {'place' if count == 1 else 'places'}")
+    if not any(proof.n_checked.values()):
+        raise FormatError(f"{file}: it says nothing that the geometry could prove or contradict")
+    out.print("what was checked of the truth holds" if proof.open else "the truth holds")
+
+
+def _why_other_paths(file: Path, scene: Scene, truth: Truth) -> str:
+    """Why a scene lacks meshes of a truth, and what to do: names are read in more than one way, or it is another's."""
+    from cadplants.writers.matching import match
+
+    absent = {row.mesh for row in truth.meshes} - set(scene.paths)
+    said = f"{len(absent)} of its {len(truth.meshes)} meshes are not in {file}"
+    if all("bounds" in (row.model_extra or {}) for row in truth.meshes):
+        found = match(scene, truth)
+        if 2 * (len(found.same) + len(found.split)) > len(truth.meshes):
+            command = f"cadgraph environment match {file} -o matched.json"
+            return f"{said} by these names, but lie there: run '{command}' first, then check against matched.json"
+    return f"{said}: it is the truth of another scene"
 
 
 @plants.command("match")
@@ -279,8 +318,11 @@ def match_truth(
     read = load(scene, _as_written(known))
     for line in match(read, known).lines():
         out.print(line)
-    truth_for(read, known).save(output)
+    now = truth_for(read, known)
+    now.save(output)
     out.print(f"wrote {escape(str(output))}: {read.n_meshes:,} meshes")
+    if now.contacts is None and known.contacts is not None:
+        out.print("left out what touches: it is not known for pieces of meshes")
 
 
 def _as_written(truth: Truth) -> LoadConfig:
