@@ -1,10 +1,12 @@
 from collections import Counter
+from itertools import pairwise
 
 import numpy as np
 import pytest
 
 from cadgraph.model.vocabulary import default_vocabulary
 from cadplants import PRESETS, STYLES, Defects, degrade, make
+from cadplants.model.plant import turned_front
 from cadplants.truth.truth_writer import truth_of
 from plants.solids import is_closed, shell_volumes, touching
 
@@ -39,6 +41,18 @@ def test_units_are_of_the_type_of_their_group(plant):
             assert types[component.unit] == of_group[component.group]
         else:
             assert of_group.get(component.group) is None
+
+
+def test_no_dial_looks_into_its_own_pipe(plant):
+    axes = {line.id: np.concatenate([np.linspace(a, b, 200) for a, b in pairwise(line.points)]) for line in plant.lines}
+    for component in plant.components:
+        front = turned_front(component.front, component.pose)
+        if not component.unit or front is None or not component.line:
+            continue
+        away = axes[component.line] - component.vertices.mean(axis=0)
+        ahead = away @ np.array(front)
+        aside = np.linalg.norm(away - ahead[:, None] * np.array(front), axis=1)
+        assert not ((ahead > 0) & (ahead < 0.4) & (aside < 0.04)).any(), component.unit
 
 
 def test_every_unit_has_meshes_and_a_place_in_the_network(plant):

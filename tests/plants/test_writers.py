@@ -415,22 +415,22 @@ def test_a_file_without_a_unit_is_checked_in_that_of_its_truth(run, tmp_path):
 
 
 def test_a_check_says_what_it_could_not_check_and_whether_to_match_first(run, tmp_path):
-    for name, preset in (("riser.step", "riser"), ("skid.step", "skid")):
+    for name, preset in (("riser.stl", "riser"), ("skid.stl", "skid")):
         assert run("environment", "make", "--preset", preset, "-o", tmp_path / name)[0] == 0
-    code, said = run("environment", "check", tmp_path / "riser.step")
+    code, said = run("environment", "check", tmp_path / "riser.stl")
     assert (code, "match" in said, "first" in said) == (2, True, True)
-    code, said = run("environment", "check", tmp_path / "riser.step", tmp_path / "skid.truth.json")
+    code, said = run("environment", "check", tmp_path / "riser.stl", tmp_path / "skid.truth.json")
     assert (code, "the truth of another scene" in said) == (2, True)
     fitted = tmp_path / "fitted.json"
-    code, said = run("environment", "match", tmp_path / "riser.step", "-o", fitted)
+    code, said = run("environment", "match", tmp_path / "riser.stl", "-o", fitted)
     assert (code, "left out what touches" in said) == (0, True)
-    code, said = run("environment", "check", tmp_path / "riser.step", fitted)
+    code, said = run("environment", "check", tmp_path / "riser.stl", fitted)
     assert code == 0
     assert "not checked: whether clusters and units hang together, and what touches (no 'contacts')" in said
     assert said.endswith("what was checked of the truth holds")
     least = Truth.load(fitted).to_json()
     (tmp_path / "least.json").write_text(json.dumps({key: least[key] for key in ("format", "version", "meshes")}))
-    code, said = run("environment", "check", tmp_path / "riser.step", tmp_path / "least.json")
+    code, said = run("environment", "check", tmp_path / "riser.stl", tmp_path / "least.json")
     assert (code, "says nothing that the geometry could prove" in said) == (2, True)
 
 

@@ -207,11 +207,21 @@ def make_device_file(
             "--set", metavar="NAME=VALUE", help="A parameter, e.g. dn=80, drive.length=1.2; as often as needed."
         ),
     ] = None,
+    params: Annotated[
+        Path | None,
+        typer.Option(
+            "--params",
+            metavar="FILE",
+            help="What it was built from (JSON): the truth of a plant, a row of its devices, or the row's params.",
+        ),
+    ] = None,
     seed: Annotated[int, typer.Option(min=0, help="Of what is not given.")] = 0,
-    style: Annotated[str, typer.Option(help="In whose style it is modelled.")] = "plant-design",
+    style: Annotated[
+        str | None, typer.Option(help="In whose style it is modelled; that of --params, else plant-design.")
+    ] = None,
 ) -> None:
     """Generate one device, or without --output say which parameters it has and what they can be."""
-    from cadplants.presets.single_device import draw_parameters, family_called, make_device
+    from cadplants.presets.single_device import draw_parameters, family_called, make_device, rebuild
     from cadplants.writers import write_plant
 
     told = {}
@@ -220,13 +230,40 @@ def make_device_file(
         if not equals or not key.strip():
             raise ValueError(f"--set {one}: give a parameter and its value as NAME=VALUE")
         told[key.strip()] = value.strip()
+    if params is not None and (told or output is None):
+        raise ValueError(f"--params {params}: give --output with it, and no --set")
     if output is None:
-        _tell_parameters(family_called(name), draw_parameters(name, seed, told, style))
+        _tell_parameters(family_called(name), draw_parameters(name, seed, told, style or "plant-design"))
         return
     _refuse_shared_truth(output)
-    plant = make_device(name, seed, style, given=told)
+    if params is not None:
+        record, styles = _record_in(params, family_called(name).name)
+        plant = rebuild(record, styles, style)
+    else:
+        plant = make_device(name, seed, style or "plant-design", given=told)
     truth = write_plant(plant, output)
     out.print(f"wrote {escape(str(output))} and {escape(str(truth))}")
+
+
+def _record_in(file: Path, name: str) -> tuple[dict[str, Any], dict[str, Any]]:
+    """What a file has of a device of a family, as a row of ``devices``, and the styles that it tells of."""
+    try:
+        said = json.loads(file.read_bytes())
+    except (OSError, ValueError) as error:
+        raise ValueError(f"{file}: can't be read as JSON ({error})") from None
+    if not isinstance(said, dict):
+        raise ValueError(f"{file}: give an object of parameters, a row of devices, or a truth")
+    family, _, build = name.partition("/")
+    if said.get("format") == "cadgraph-truth":
+        rows = [row for row in said.get("devices", ()) if (row["family"], row["build"]) == (family, build)]
+        if len(rows) != 1:
+            raise ValueError(f"{file}: has {len(rows)} devices of {name}; give a file with the row of one of them")
+        return rows[0], said.get("styles", {})
+    if "params" not in said:
+        return {"family": family, "build": build, "params": said}, {}
+    if (said.get("family"), said.get("build")) != (family, build):
+        raise ValueError(f"{file}: is of {said.get('family')}/{said.get('build')}, not of {name}")
+    return said, {}
 
 
 def _tell_parameters(family: Family, drawn: Device) -> None:

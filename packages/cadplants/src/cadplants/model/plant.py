@@ -80,6 +80,7 @@ class Component:
             nothing does, or where that was not annotated.
         params: what its device was built from, as plain JSON values, shared by all meshes of that device; None where
             that is not recorded.
+        made_in: the style that its device was built in, where it is recorded what from.
     """
 
     solid: Solid
@@ -99,6 +100,7 @@ class Component:
     front: tuple[float, float, float] | None = None
     turns: Turning | None = None
     params: Mapping[str, Any] | None = field(default=None, compare=False)
+    made_in: ModelingStyle | None = field(default=None, compare=False)
 
     @property
     def vertices(self) -> Floats:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from itertools import count
 from typing import Any
 
 from cadplants.model.plant import Component, Connection, Line, Plant, Point, turned_front
+from cadplants.styles.modeling_style import STYLES, ModelingStyle
 from cadplants.truth.part_oracle import find_parts
 
 __all__ = ["truth_of"]
@@ -78,18 +80,34 @@ def _units(plant: Plant, names: Sequence[str]) -> list[dict[str, Any]]:
 
 
 def _devices(plant: Plant, names: Sequence[str]) -> dict[str, Any]:
-    """The devices whose parameters are known, each with its meshes; nothing where none are."""
+    """The devices whose parameters are known, each with its style and its meshes; nothing where none are."""
     meshes: dict[int, list[int]] = {}
     for index, component in enumerate(plant.components):
         if component.params is not None:
             # All meshes of a device share one mapping, and two devices never do.
             meshes.setdefault(id(component.params), []).append(index)
-    rows = []
+    rows, styles = [], dict[str, ModelingStyle]()
     for members in meshes.values():
         first = plant.components[members[0]]
         family, _, build = first.family.partition("/")
-        rows.append({"family": family, "build": build, "params": first.params, "meshes": [names[i] for i in members]})
-    return {"devices": rows} if rows else {}
+        row = {"family": family, "build": build, "params": first.params, "meshes": [names[i] for i in members]}
+        if first.made_in is not None:
+            row["style"] = _style_name(first.made_in, styles)
+        rows.append(row)
+    drawn = {name: style.to_json() for name, style in styles.items() if STYLES.get(name) != style}
+    return {"devices": rows, **({"styles": drawn} if drawn else {})} if rows else {}
+
+
+def _style_name(style: ModelingStyle, known: dict[str, ModelingStyle]) -> str:
+    """What a style is called in a truth: its name, with a number behind it where others have that; it is known then."""
+    name = next(one for one in _numbered(style.name) if known.get(one, STYLES.get(one, style)) == style)
+    known[name] = style
+    return name
+
+
+def _numbered(name: str) -> Iterator[str]:
+    yield name
+    yield from (f"{name}/{k}" for k in count(2))
 
 
 def _turning(plant: Plant, names: Sequence[str]) -> dict[str, dict[str, Any]]:

@@ -52,8 +52,8 @@ class Match:
 def match(scene: Scene, truth: Truth, tolerance: float = _TOLERANCE) -> Match:
     """Finds the meshes of a truth in a scene.
 
-    A mesh is the one whose box has its sides in the same places; of several that of the nearest centre. One of several
-    pieces is looked for as these first: one of them, say the rim of a wheel, may have the box of the whole. What is left
+    A mesh is the one whose box has its sides in the same places; of several that of the nearest centre. One of many
+    pieces is looked for as these first: one, say the rim of a wheel, may have the box of the whole. What is left
     is looked for as any of its pieces, then as a part of what is larger.
 
     Args:
