@@ -65,6 +65,14 @@ def test_the_devices_of_a_plant_are_built_again_in_their_own_styles():
             np.testing.assert_allclose(*sizes, rtol=0, atol=1e-6)
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("preset", ["assortment", "field"])
+def test_devices_are_recorded_in_sizes_that_their_families_are_made_in(preset):
+    for row in truth_of(make(preset, 1))["devices"]:
+        family = ALL_FAMILIES[f"{row['family']}/{row['build']}"]
+        assert row["params"]["dn"] in family.sizes, family.name
+
+
 def test_a_style_comes_back_from_what_is_written_of_it():
     for style in STYLES.values():
         assert ModelingStyle.from_json(written(style.to_json())) == style
