@@ -271,7 +271,7 @@ def _tell_parameters(family: Family, drawn: Device) -> None:
     sizes = ", ".join(map(str, family.sizes)) if family.place in ("inline", "end", "carrier") else ""
     out.print(escape(f"{family.name}: {family.group}, {family.place}" + (f", DN {sizes}" if sizes else "")))
     table = Table(Column("parameter", no_wrap=True), "here", "can be", "what it is", box=None, pad_edge=False)
-    for row in drawn.rows():
+    for row in drawn.rows(here=True):
         table.add_row(*map(escape, row))
     out.print(table)
 

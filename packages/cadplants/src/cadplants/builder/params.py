@@ -45,6 +45,7 @@ __all__ = [
 
 _DIGITS = 9  # of numbers that are written down
 _ROUNDED = 10.0**-_DIGITS
+_DEPENDS = "by the fields before"
 _TRIES = 300  # draws of a piece that is made anew, until one is of its class; ours: few classes are as rare as this
 
 Rng = np.random.Generator
@@ -112,6 +113,7 @@ class Field:
         of_style: whether the style says it.
         piece: draws a piece with parameters of its own, given its source, the fields before, and what of it a user
             gives and the rest of the device sets; None of what has none.
+        limits_by: what it can be, for people, by the fields before; None where that is always the same.
     """
 
     about: str
@@ -123,6 +125,15 @@ class Field:
     otherwise: Any = None
     of_style: bool = False
     piece: Callable[[Source, Any, Mapping[str, Any], Mapping[str, Any]], Any] | None = None
+    limits_by: Callable[[Any], str] | None = None
+
+    def limits_here(self, drawn: Any) -> str:
+        """What it can be beside the other fields of what was drawn, for people."""
+        if self.limits_by is None:
+            return self.limits
+        if self.when is not None and not self.when(drawn):
+            return "as the rest has it"
+        return self.limits_by(drawn)
 
 
 def _field(spec: Field) -> Any:
@@ -146,9 +157,11 @@ def between(
     def accept(value: Any, before: Any) -> float:
         return _within(value, *bounds(before))
 
-    limits = "by the fields before" if callable(low) or callable(high) else f"{low:g} to {high:g}"
+    depends = callable(low) or callable(high)
+    limits = _DEPENDS if depends else f"{low:g} to {high:g}"
+    here = (lambda before: "{:.4g} to {:.4g}".format(*bounds(before))) if depends else None
     draw = lambda source, before: float(source.rng.uniform(*bounds(before)))  # noqa: E731
-    return _field(Field(about, unit, limits, draw, accept, when, otherwise))  # type: ignore[no-any-return]
+    return _field(Field(about, unit, limits, draw, accept, when, otherwise, limits_by=here))  # type: ignore[no-any-return]
 
 
 def _within(value: Any, least: float, most: float) -> float:
@@ -243,8 +256,12 @@ def among(
             raise ValueError(f"give {least:g} to {most:g}")
         raise ValueError(f"give {', '.join(map(_told, dict.fromkeys(some)))}")
 
-    limits = "by the fields before" if callable(items) else ", ".join(map(_told, dict.fromkeys(items)))
-    return _field(Field(about, unit, limits, sample, accept, when, otherwise))  # type: ignore[no-any-return]
+    def listed(some: Sequence[T]) -> str:
+        return ", ".join(map(_told, dict.fromkeys(some)))
+
+    here = (lambda before: listed(choices(before))) if callable(items) else None
+    limits = _DEPENDS if callable(items) else listed(items)
+    return _field(Field(about, unit, limits, sample, accept, when, otherwise, limits_by=here))  # type: ignore[no-any-return]
 
 
 def weighted(about: str, *, when: When | None = None, otherwise: str = "", **shares: float) -> str:
@@ -414,25 +431,27 @@ class Params:
                 raise ValueError(f"{name}.{first}: the device has no {name} with parameters of its own")
         return cls(**values)
 
-    def rows(self, within: str = "") -> list[tuple[str, str, str, str]]:
+    def rows(self, within: str = "", here: bool = False) -> list[tuple[str, str, str, str]]:
         """What people read of all parameters: name, value, what it can be, what it is; pieces' own below them.
 
         Args:
             within: name of the piece that these are of, for their names.
+            here: whether what they can be is said for this draw, where it follows from fields before.
         """
         found = []
         for name, spec in self.fields().items():
+            limits = spec.limits_here(self) if here else spec.limits
             value, unit = getattr(self, name), f" [{spec.unit}]" if spec.unit else ""
             if isinstance(value, Params):
                 # Of a piece that can be of several kinds, which one it is.
-                found += [(within + name, value.kind, spec.limits, spec.about)] if value.kind else []
-                found += value.rows(f"{within}{name}.")
+                found += [(within + name, value.kind, limits, spec.about)] if value.kind else []
+                found += value.rows(f"{within}{name}.", here)
             elif isinstance(value, tuple) and value and isinstance(value[0], Params):
                 for k, one in enumerate(value):
-                    found += [(f"{within}{name}.{k}", one.kind, spec.limits, spec.about)] if one.kind else []
-                    found += one.rows(f"{within}{name}.{k}.")
+                    found += [(f"{within}{name}.{k}", one.kind, limits, spec.about)] if one.kind else []
+                    found += one.rows(f"{within}{name}.{k}.", here)
             elif value is not None:
-                found.append((within + name, _told(value), spec.limits, spec.about + unit))
+                found.append((within + name, _told(value), limits, spec.about + unit))
         return found
 
     @classmethod
