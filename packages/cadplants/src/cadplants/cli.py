@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import importlib
+import importlib.util
 import json
+import sys
 from dataclasses import replace
 from pathlib import Path
+from types import ModuleType
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -27,6 +31,14 @@ if TYPE_CHECKING:
 __all__ = ["plants"]
 
 plants = typer.Typer(no_args_is_help=True, help="Generated test plants with their ground truth.")
+
+
+_With = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--with", metavar="MODULE", help="With the families of devices in a module or a .py file; as often as needed."
+    ),
+]
 
 
 @plants.command("make")
@@ -84,6 +96,7 @@ def make_plant(
     missing_names: Annotated[
         float | None, typer.Option(min=0, max=1, help="Of RVM and IFC, share of elements without class and name.")
     ] = None,
+    own: _With = None,
     hand: Annotated[str | None, typer.Option(hidden=True)] = None,
     spoilt: Annotated[float, typer.Option(min=0, max=1, hidden=True)] = 0.0,
     sins: Annotated[bool, typer.Option("--sins", hidden=True)] = False,
@@ -101,9 +114,43 @@ def make_plant(
     told = {"layout": layout, "wrong_classes": wrong_classes, "missing_names": missing_names}
     authoring = _authoring(format_of(output, form).name, given, told, seed if defects else None)
     _refuse_shared_truth(output)
+    _register(own)
     plant = make(preset, seed, style, draw_defects(seed) if defects else _asked_for(drawn, defective))
     truth = write_plant(plant, output, authoring, form)
     out.print(f"wrote {escape(str(output))} and {escape(str(truth))}")
+
+
+def _register(modules: list[str] | None) -> None:
+    """Makes the families that somebody's own modules define as all others."""
+    if not modules:
+        return
+    from cadplants.builder.device import Device
+    from cadplants.presets.taste import register
+
+    for name in modules:
+        module = _imported(name)
+        defined = [one for one in vars(module).values() if isinstance(one, type) and one.__module__ == module.__name__]
+        devices = [one for one in defined if issubclass(one, Device) and one.name]
+        if not devices:
+            raise ValueError(f"--with {name}: it defines no class of Device with a name")
+        register(*devices)
+
+
+def _imported(name: str) -> ModuleType:
+    """A module by its name, or by its file."""
+    try:
+        if not name.endswith(".py"):
+            return importlib.import_module(name)
+        spec = importlib.util.spec_from_file_location(Path(name).stem, name)
+        if spec is None or spec.loader is None:
+            raise ImportError("no file of Python")
+        module = importlib.util.module_from_spec(spec)
+        # Annotations are looked up in the module that a class names.
+        sys.modules[module.__name__] = module
+        spec.loader.exec_module(module)
+    except (ImportError, OSError, SyntaxError) as error:
+        raise ValueError(f"--with {name}: can't be imported ({error})") from None
+    return module
 
 
 def _authoring(form: str, given: dict[str, Any], told: dict[str, Any], seed: int | None) -> UsdStyle | FileStyle:
@@ -219,11 +266,13 @@ def make_device_file(
     style: Annotated[
         str | None, typer.Option(help="In whose style it is modelled; that of --params, else plant-design.")
     ] = None,
+    own: _With = None,
 ) -> None:
     """Generate one device, or without --output say which parameters it has and what they can be."""
     from cadplants.presets.single_device import draw_parameters, family_called, make_device, rebuild
     from cadplants.writers import write_plant
 
+    _register(own)
     told = {}
     for one in given or ():
         key, equals, value = one.partition("=")
@@ -279,8 +328,10 @@ def _tell_parameters(family: Family, drawn: Device) -> None:
 @plants.command("devices")
 def list_devices(
     kind: Annotated[str, typer.Argument(metavar="[KIND]", help="Only those of a kind, e.g. valve, pump.")] = "",
+    own: _With = None,
 ) -> None:
     """List the families of devices, with their places and sizes."""
+    _register(own)
     from cadplants.presets.taste import ALL_FAMILIES
 
     some = [family for name, family in sorted(ALL_FAMILIES.items()) if kind.lower() in name]
