@@ -104,6 +104,11 @@ class ModelingStyle:
     devices: Literal["built", "primitives"] = "built"
     palette: Mapping[str, RGB] = field(default_factory=lambda: _REALISTIC, compare=False)
 
+    @property
+    def published(self) -> bool:
+        """Whether its name is enough to know it."""
+        return STYLES.get(self.name) == self
+
     def to_json(self) -> dict[str, Any]:
         """All of it but the colours, as plain JSON values."""
         said = ((one.name, getattr(self, one.name)) for one in fields(self) if one.name != "palette")

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from itertools import count
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from cadplants.model.plant import Component, Connection, Line, Plant, Point, turned_front
-from cadplants.styles.modeling_style import STYLES, ModelingStyle
 from cadplants.truth.part_oracle import find_parts
 
 __all__ = ["truth_of"]
@@ -86,28 +84,16 @@ def _devices(plant: Plant, names: Sequence[str]) -> dict[str, Any]:
         if component.params is not None:
             # All meshes of a device share one mapping, and two devices never do.
             meshes.setdefault(id(component.params), []).append(index)
-    rows, styles = [], dict[str, ModelingStyle]()
+    rows, styles = [], plant.device_styles()
     for members in meshes.values():
         first = plant.components[members[0]]
         family, _, build = first.family.partition("/")
         row = {"family": family, "build": build, "params": first.params, "meshes": [names[i] for i in members]}
         if first.made_in is not None:
-            row["style"] = _style_name(first.made_in, styles)
+            row["style"] = styles[first.made_in]
         rows.append(row)
-    drawn = {name: style.to_json() for name, style in styles.items() if STYLES.get(name) != style}
+    drawn = {name: style.to_json() for style, name in styles.items() if not style.published}
     return {"devices": rows, **({"styles": drawn} if drawn else {})} if rows else {}
-
-
-def _style_name(style: ModelingStyle, known: dict[str, ModelingStyle]) -> str:
-    """What a style is called in a truth: its name, with a number behind it where others have that; it is known then."""
-    name = next(one for one in _numbered(style.name) if known.get(one, STYLES.get(one, style)) == style)
-    known[name] = style
-    return name
-
-
-def _numbered(name: str) -> Iterator[str]:
-    yield name
-    yield from (f"{name}/{k}" for k in count(2))
 
 
 def _turning(plant: Plant, names: Sequence[str]) -> dict[str, dict[str, Any]]:
