@@ -429,9 +429,13 @@ def test_a_check_says_what_it_could_not_check_and_whether_to_match_first(run, tm
     assert "not checked: whether clusters and units hang together, and what touches (no 'contacts')" in said
     assert said.endswith("what was checked of the truth holds")
     least = Truth.load(fitted).to_json()
-    (tmp_path / "least.json").write_text(json.dumps({key: least[key] for key in ("format", "version", "meshes")}))
-    code, said = run("environment", "check", tmp_path / "riser.stl", tmp_path / "least.json")
-    assert (code, "says nothing that the geometry could prove" in said) == (2, True)
+    for keys, why in (
+        (("format", "version", "meshes"), "say it in the truth as 'meters_per_unit'"),
+        (("format", "version", "meshes", "meters_per_unit", "up_axis"), "says nothing that the geometry could prove"),
+    ):
+        (tmp_path / "least.json").write_text(json.dumps({key: least[key] for key in keys}))
+        code, said = run("environment", "check", tmp_path / "riser.stl", tmp_path / "least.json")
+        assert (code, why in said) == (2, True)
 
 
 def test_the_truth_of_curved_primitives_holds_as_their_reader_cuts_them(run, tmp_path):

@@ -9,7 +9,7 @@ import sys
 from dataclasses import replace
 from pathlib import Path
 from types import ModuleType
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, cast
 
 import typer
 from rich.markup import escape
@@ -357,7 +357,7 @@ def check_plant(
 
     file = truth or truth_path(scene)
     known = Truth.load(file)
-    read = load(scene, _as_written(known))
+    read = load(scene, _as_written(scene, known))
     proof = prove(read, known)
     if any(finding.code == "mesh" for finding in proof.findings):
         raise FormatError(f"{file}: {_why_other_paths(scene, read, known)}")
@@ -403,7 +403,7 @@ def match_truth(
     from cadplants.writers.matching import match, truth_for
 
     known = Truth.load(truth or truth_path(scene))
-    read = load(scene, _as_written(known))
+    read = load(scene, _as_written(scene, known))
     for line in match(read, known).lines():
         out.print(line)
     now = truth_for(read, known)
@@ -413,14 +413,20 @@ def match_truth(
         out.print("left out what touches: it is not known for pieces of meshes")
 
 
-def _as_written(truth: Truth) -> LoadConfig:
-    """How to read a scene whose format has no place for its unit and up axis: as the truth beside it has them."""
+def _as_written(scene: Path, truth: Truth) -> LoadConfig:
+    """How to read a scene whose format has no place for its unit and up axis: as the truth has them."""
     from cadgraph.config import LoadConfig
 
+    suffix, extra = scene.suffix.lower(), truth.model_extra or {}
+    # The truth of the same plant in another format tells of that file.
+    other = extra.get("file_format", suffix[1:]) != suffix[1:] or "instances" in extra
+    if suffix not in (".glb", ".obj", ".stl") or other:
+        return LoadConfig()
     units: dict[float | None, Any] = {1.0: "m", 0.1: "dm", 0.01: "cm", 0.001: "mm", 0.0254: "in", 0.3048: "ft"}
-    up: Any = truth.up_axis
-    silent = (truth.model_extra or {}).get("file_format") in ("glb", "obj", "stl")
-    return LoadConfig(unit=units.get(truth.meters_per_unit), up=up) if silent else LoadConfig()
+    unit, up = units.get(truth.meters_per_unit), cast(Any, truth.up_axis)
+    if unit is None and suffix != ".glb":
+        raise FormatError(f"{scene} doesn't say its unit; say it in the truth as 'meters_per_unit', 0.001 for mm")
+    return LoadConfig(unit=unit, up=up)
 
 
 @plants.command("truth-from-usd")
