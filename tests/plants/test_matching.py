@@ -1,9 +1,11 @@
+from collections import Counter
+
 import numpy as np
 import pytest
 
 from cadgraph.model.scene import Scene
 from cadgraph.model.truth import Truth
-from cadplants import match, truth_for, write_plant
+from cadplants import make, match, truth_for, write_plant
 from cadplants.truth.truth_writer import truth_of
 from cadplants.writers.placing import shells
 from plants.small_plant import small_plant
@@ -54,6 +56,20 @@ def test_pieces_of_a_mesh_are_one_part(plant, truth):
     now = truth_for(scene, truth)
     assert ("/mesh_11", "/mesh_12") in now.parts
     assert now.contacts is None
+
+
+def test_a_piece_with_the_box_of_the_whole_is_not_taken_for_it(tmp_path):
+    plant = make("pumps", 0)
+    truth = Truth.load(write_plant(plant, tmp_path / "pumps.stl"))
+    pieces, of_row = [], []
+    for i, c in enumerate(plant.components):
+        some = [(one.vertices @ c.pose[:3, :3].T + c.pose[:3, 3], one.faces) for one in shells(c.solid)]
+        pieces += some
+        of_row += [i] * len(some)
+    scene = Scene.from_meshes(pieces)
+    labels = [row.name for row in truth_for(scene, truth).meshes]
+    assert labels == [plant.components[i].name for i in of_row]
+    assert Counter(of_row)[next(i for i, c in enumerate(plant.components) if c.name == "handwheel")] > 3
 
 
 def test_a_mesh_that_is_cut_in_two_holds_both_halves(plant, truth):

@@ -21,6 +21,11 @@ def test_every_family_is_a_class_of_parameters_that_people_can_read():
             assert about, (name, parameter)
 
 
+def test_what_depends_on_other_parameters_is_said_in_numbers_for_a_draw():
+    for name in ALL_FAMILIES:
+        assert "by the fields before" not in {row[2] for row in draw_parameters(name, 2).rows(here=True)}, name
+
+
 @pytest.mark.parametrize("name", list(ALL_FAMILIES)[::59])
 def test_a_device_by_itself_is_a_plant_with_truth(name):
     plant = make_device(name, 3)

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import importlib
+import json
 import struct
 from collections import Counter
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -359,14 +361,91 @@ def test_a_format_is_known_by_its_name_or_its_suffix():
         format_of("a.stp", "jt")
 
 
-def test_the_command_line_writes_each_format_and_fits_the_truth_to_what_is_read(tmp_path, capsys):
+@pytest.mark.parametrize("name", ["plant.usda", "plant.obj", "plant.rvm"])
+def test_a_plant_that_is_broken_off_leaves_nothing_and_its_truth_comes_first(name, plant, tmp_path, monkeypatch):
+    order, replace_file = [], Path.replace
+
+    def broken(one, other):
+        order.append(Path(other).suffix)
+        if len(order) == at:
+            raise KeyboardInterrupt
+        return replace_file(one, other)
+
+    for at in (1, 100):
+        order.clear()
+        with monkeypatch.context() as patch:
+            patch.setattr(Path, "replace", broken)
+            if at == 1:
+                with pytest.raises(KeyboardInterrupt):
+                    write_plant(plant, tmp_path / name)
+                assert list(tmp_path.iterdir()) == []
+            else:
+                write_plant(plant, tmp_path / name)
+    assert order[0] == ".json"
+    assert order[-1] == Path(name).suffix
+
+
+@pytest.fixture
+def run(capsys):
     from cadgraph.cli import main
 
-    def run(*words):
+    def command(*words):
         with pytest.raises(SystemExit) as end:
             main([str(word) for word in words])
-        return end.value.code or 0, "".join(capsys.readouterr())
+        return end.value.code or 0, " ".join("".join(capsys.readouterr()).split())
 
+    return command
+
+
+def test_a_truth_that_was_made_by_hand_is_not_written_over(run, tmp_path):
+    mine = tmp_path / "riser.truth.json"
+    mine.write_text('{"format": "cadgraph-truth", "version": 1, "meshes": []}')
+    code, said = run("environment", "make", "--preset", "riser", "-o", tmp_path / "riser.usdc")
+    assert (code, "was not generated and would be lost; move it away" in said) == (2, True)
+    assert [path.name for path in tmp_path.iterdir()] == ["riser.truth.json"]
+    mine.unlink()
+    for _ in range(2):
+        assert run("environment", "make", "--preset", "riser", "-o", tmp_path / "riser.usdc")[0] == 0
+
+
+def test_a_file_without_a_unit_is_checked_in_that_of_its_truth(run, tmp_path):
+    assert run("environment", "make", "--preset", "riser", "-o", tmp_path / "riser.obj")[0] == 0
+    code, said = run("environment", "check", tmp_path / "riser.obj")
+    assert (code, said.endswith("the truth holds")) == (0, True)
+
+
+def test_a_check_says_what_it_could_not_check_and_whether_to_match_first(run, tmp_path):
+    for name, preset in (("riser.stl", "riser"), ("skid.stl", "skid")):
+        assert run("environment", "make", "--preset", preset, "-o", tmp_path / name)[0] == 0
+    code, said = run("environment", "check", tmp_path / "riser.stl")
+    assert (code, "match" in said, "first" in said) == (2, True, True)
+    code, said = run("environment", "check", tmp_path / "riser.stl", tmp_path / "skid.truth.json")
+    assert (code, "the truth of another scene" in said) == (2, True)
+    fitted = tmp_path / "fitted.json"
+    code, said = run("environment", "match", tmp_path / "riser.stl", "-o", fitted)
+    assert (code, "left out what touches" in said) == (0, True)
+    code, said = run("environment", "check", tmp_path / "riser.stl", fitted)
+    assert code == 0
+    assert "not checked: whether clusters and units hang together, and what touches (no 'contacts')" in said
+    assert said.endswith("what was checked of the truth holds")
+    least = Truth.load(fitted).to_json()
+    for keys, why in (
+        (("format", "version", "meshes"), "say it in the truth as 'meters_per_unit'"),
+        (("format", "version", "meshes", "meters_per_unit", "up_axis"), "says nothing that the geometry could prove"),
+    ):
+        (tmp_path / "least.json").write_text(json.dumps({key: least[key] for key in keys}))
+        code, said = run("environment", "check", tmp_path / "riser.stl", tmp_path / "least.json")
+        assert (code, why in said) == (2, True)
+
+
+def test_the_truth_of_curved_primitives_holds_as_their_reader_cuts_them(run, tmp_path):
+    assert run("environment", "make", "--preset", "station", "-o", tmp_path / "a.rvm")[0] == 0
+    assert run("environment", "match", tmp_path / "a.rvm", "-o", tmp_path / "b.json")[0] == 0
+    code, said = run("environment", "check", tmp_path / "a.rvm", tmp_path / "b.json")
+    assert (code, said.endswith("the truth holds")) == (0, True)
+
+
+def test_the_command_line_writes_each_format_and_fits_the_truth_to_what_is_read(tmp_path, run):
     target = tmp_path / "own.usda"
     make_it = ("environment", "make", "--preset", "riser", "--style", "bim", "-o")
     assert run(*make_it, tmp_path / "riser.rvm", "--wrong-classes", "0.1")[0] == 0

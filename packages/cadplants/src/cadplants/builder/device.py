@@ -59,12 +59,12 @@ class Device(Params):
                 setattr(cls, key, said.pop(key))
         super().__init_subclass__(**said)
 
-    def rows(self, within: str = "") -> list[tuple[str, str, str, str]]:
+    def rows(self, within: str = "", here: bool = False) -> list[tuple[str, str, str, str]]:
         """What people read of all parameters; the nominal size is one of those that the family is made in."""
         sizes = ", ".join(map(str, self.sizes))
         return [
             (name, value, sizes if name == f"{within}dn" else limits, about)
-            for name, value, limits, about in super().rows(within)
+            for name, value, limits, about in super().rows(within, here)
         ]
 
     def build(self, t: Table) -> Model:

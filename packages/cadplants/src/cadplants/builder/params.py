@@ -43,6 +43,11 @@ __all__ = [
     "whole",
 ]
 
+_DIGITS = 9  # of numbers that are written down
+_ROUNDED = 10.0**-_DIGITS
+_DEPENDS = "by the fields before"
+_TRIES = 300  # draws of a piece that is made anew, until one is of its class; ours: few classes are as rare as this
+
 Rng = np.random.Generator
 When = Callable[[Any], bool]
 T = TypeVar("T")
@@ -108,6 +113,7 @@ class Field:
         of_style: whether the style says it.
         piece: draws a piece with parameters of its own, given its source, the fields before, and what of it a user
             gives and the rest of the device sets; None of what has none.
+        limits_by: what it can be, for people, by the fields before; None where that is always the same.
     """
 
     about: str
@@ -119,6 +125,15 @@ class Field:
     otherwise: Any = None
     of_style: bool = False
     piece: Callable[[Source, Any, Mapping[str, Any], Mapping[str, Any]], Any] | None = None
+    limits_by: Callable[[Any], str] | None = None
+
+    def limits_here(self, drawn: Any) -> str:
+        """What it can be beside the other fields of what was drawn, for people."""
+        if self.limits_by is None:
+            return self.limits
+        if self.when is not None and not self.when(drawn):
+            return "as the rest has it"
+        return self.limits_by(drawn)
 
 
 def _field(spec: Field) -> Any:
@@ -140,14 +155,21 @@ def between(
         return (low(before) if callable(low) else low), (high(before) if callable(high) else high)
 
     def accept(value: Any, before: Any) -> float:
-        number, (least, most) = float(value), bounds(before)
-        if not least <= number <= most:
-            raise ValueError(f"give {least:g} to {most:g}")
-        return number
+        return _within(value, *bounds(before))
 
-    limits = "by the fields before" if callable(low) or callable(high) else f"{low:g} to {high:g}"
+    depends = callable(low) or callable(high)
+    limits = _DEPENDS if depends else f"{low:g} to {high:g}"
+    here = (lambda before: "{:.4g} to {:.4g}".format(*bounds(before))) if depends else None
     draw = lambda source, before: float(source.rng.uniform(*bounds(before)))  # noqa: E731
-    return _field(Field(about, unit, limits, draw, accept, when, otherwise))  # type: ignore[no-any-return]
+    return _field(Field(about, unit, limits, draw, accept, when, otherwise, limits_by=here))  # type: ignore[no-any-return]
+
+
+def _within(value: Any, least: float, most: float) -> float:
+    """A number between two; what was rounded beyond one of them when it was written down is that one."""
+    number = float(value)
+    if not least - _ROUNDED <= number <= most + _ROUNDED:
+        raise ValueError(f"give {least:g} to {most:g}")
+    return min(max(number, least), most)
 
 
 def spread(low: float, high: float, about: str, unit: str = "", *, most: float = np.inf, scale: float = 1.0) -> float:
@@ -167,9 +189,7 @@ def spread(low: float, high: float, about: str, unit: str = "", *, most: float =
         return scale * min(float(np.exp(source.rng.uniform(np.log(low), np.log(high)))), most)
 
     def accept(value: Any, _: Any) -> float:
-        if not least <= float(value) <= largest:
-            raise ValueError(f"give {least:g} to {largest:g}")
-        return float(value)
+        return _within(value, least, largest)
 
     return _field(Field(about, unit, f"{least:g} to {largest:g}", sample, accept))  # type: ignore[no-any-return]
 
@@ -236,8 +256,12 @@ def among(
             raise ValueError(f"give {least:g} to {most:g}")
         raise ValueError(f"give {', '.join(map(_told, dict.fromkeys(some)))}")
 
-    limits = "by the fields before" if callable(items) else ", ".join(map(_told, dict.fromkeys(items)))
-    return _field(Field(about, unit, limits, sample, accept, when, otherwise))  # type: ignore[no-any-return]
+    def listed(some: Sequence[T]) -> str:
+        return ", ".join(map(_told, dict.fromkeys(some)))
+
+    here = (lambda before: listed(choices(before))) if callable(items) else None
+    limits = _DEPENDS if callable(items) else listed(items)
+    return _field(Field(about, unit, limits, sample, accept, when, otherwise, limits_by=here))  # type: ignore[no-any-return]
 
 
 def weighted(about: str, *, when: When | None = None, otherwise: str = "", **shares: float) -> str:
@@ -407,31 +431,94 @@ class Params:
                 raise ValueError(f"{name}.{first}: the device has no {name} with parameters of its own")
         return cls(**values)
 
-    def rows(self, within: str = "") -> list[tuple[str, str, str, str]]:
+    def rows(self, within: str = "", here: bool = False) -> list[tuple[str, str, str, str]]:
         """What people read of all parameters: name, value, what it can be, what it is; pieces' own below them.
 
         Args:
             within: name of the piece that these are of, for their names.
+            here: whether what they can be is said for this draw, where it follows from fields before.
         """
         found = []
         for name, spec in self.fields().items():
+            limits = spec.limits_here(self) if here else spec.limits
             value, unit = getattr(self, name), f" [{spec.unit}]" if spec.unit else ""
             if isinstance(value, Params):
                 # Of a piece that can be of several kinds, which one it is.
-                found += [(within + name, value.kind, spec.limits, spec.about)] if value.kind else []
-                found += value.rows(f"{within}{name}.")
+                found += [(within + name, value.kind, limits, spec.about)] if value.kind else []
+                found += value.rows(f"{within}{name}.", here)
             elif isinstance(value, tuple) and value and isinstance(value[0], Params):
                 for k, one in enumerate(value):
-                    found += [(f"{within}{name}.{k}", one.kind, spec.limits, spec.about)] if one.kind else []
-                    found += one.rows(f"{within}{name}.{k}.")
+                    found += [(f"{within}{name}.{k}", one.kind, limits, spec.about)] if one.kind else []
+                    found += one.rows(f"{within}{name}.{k}.", here)
             elif value is not None:
-                found.append((within + name, _told(value), spec.limits, spec.about + unit))
+                found.append((within + name, _told(value), limits, spec.about + unit))
         return found
+
+    @classmethod
+    def from_json(cls: type[P], said: Mapping[str, Any]) -> P:
+        """What ``to_json`` has written down; its numbers are as exact as they stand there, to nine digits.
+
+        Args:
+            said: all parameters, pieces as objects of their own.
+
+        Raises:
+            ValueError: a parameter is missing, or there is none of a name.
+        """
+        specs = cls.fields()
+        other = sorted(set(specs) ^ (set(said) - ({"kind"} if cls.kind else set())))
+        if other:
+            what = "is missing" if other[0] in specs else f"no parameter; there are {', '.join(specs) or 'none'}"
+            raise ValueError(f"{other[0]}: {what}")
+        before = SimpleNamespace()
+        for name, spec in specs.items():
+            try:
+                vars(before)[name] = _restored(name, spec, said[name], before)
+            except (TypeError, AttributeError) as error:
+                raise ValueError(f"{name}={said[name]}: no value of it ({error})") from None
+        return cls(**vars(before))
 
     def to_json(self) -> dict[str, Any]:
         """All parameters as plain JSON values, pieces as objects of their own."""
         said = {"kind": self.kind} if self.kind else {}
         return said | {name: _plain(getattr(self, name)) for name in self.fields()}
+
+
+def _restored(name: str, spec: Field, told: Any, before: Any) -> Any:
+    """A value as it was before it was written down; which class a piece is of is found by drawing such pieces."""
+    classes: dict[tuple[str, frozenset[str]], type[Params]] = {}
+    tries = 0
+
+    def class_of(said: Mapping[str, Any]) -> type[Params]:
+        nonlocal tries
+        sign = _sign(said)
+        while sign not in classes:
+            tries += 1
+            if tries > _TRIES:
+                raise ValueError(f"{name}: no piece of it has the parameters {', '.join(said) or 'none'}")
+            # As plants draw, and each field apart, as single devices do: which pieces come differs.
+            source: Source = Apart(tries) if tries % 2 else OneStream(np.random.default_rng(tries))
+            for one in _pieces_in(spec.sample(source, before)):
+                classes.setdefault(_sign(one.to_json()), type(one))
+        return classes[sign]
+
+    def restored(value: Any) -> Any:
+        if isinstance(value, Mapping):
+            return class_of(value).from_json(value)
+        return tuple(map(restored, value)) if isinstance(value, (list, tuple)) else value
+
+    return restored(told)
+
+
+def _sign(said: Mapping[str, Any]) -> tuple[str, frozenset[str]]:
+    """What tells the class of a piece that is written down: what it is called and which parameters it has."""
+    return str(said.get("kind", "")), frozenset(said)
+
+
+def _pieces_in(value: Any) -> list[Params]:
+    """The pieces that a drawn value is or has, but for those within them."""
+    if isinstance(value, Params):
+        return [value]
+    return [piece for one in value for piece in _pieces_in(one)] if isinstance(value, tuple) else []
 
 
 def _make_dataclass(cls: type) -> None:
@@ -471,7 +558,8 @@ def _refuse_others(name: str, given: Mapping[str, Any], only: Any, why: str) -> 
 
 
 def _is_told(value: Any, item: Any) -> bool:
-    """Whether a value that is given, maybe as text, stands for something."""
+    """Whether a value that is given, maybe as text or as a list, stands for something."""
+    value = tuple(value) if isinstance(value, list) else value
     return bool(value == item) or str(value) in (str(item), _told(item))
 
 
@@ -490,4 +578,4 @@ def _plain(value: Any) -> Any:
         return [_plain(one) for one in value]
     if isinstance(value, (bool, str)) or value is None:
         return value
-    return int(value) if isinstance(value, (int, np.integer)) else round(float(value), 9)
+    return int(value) if isinstance(value, (int, np.integer)) else round(float(value), _DIGITS)

@@ -159,13 +159,15 @@ def as_assembly(family: Family, model: Model | Device | Assembly, style: Modelin
     if isinstance(model, Device):
         model = model.assembly
     if isinstance(model, Assembly):
-        return _stamped(_called(model, unit), family.name, grain)
+        return _stamped(_called(model, unit), family.name, grain, style)
     parts = [p for p in model.parts if not p.fine or style.fasteners != "none"]
     if grain == "one":
         parts = _in_one(family, parts)
     elif grain == "few":
         parts = _in_few(parts)
-    components = tuple(replace(_component(part, family, style, unit, grain), params=model.params) for part in parts)
+    components = tuple(_component(part, family, style, unit, grain) for part in parts)
+    if model.params is not None:
+        components = tuple(replace(one, params=model.params, made_in=style) for one in components)
     units = (Unit(unit, family.unit, model.kind or family.whole),) if unit and family.unit else ()
     return Assembly(components, tuple((0, k) for k in range(1, len(components))), units)
 
@@ -245,8 +247,16 @@ def _at_end(assembly: Assembly, length: float) -> int:
     return next((k for k, end in enumerate(ends) if abs(end - length) < _EXACT), 0)
 
 
-def _stamped(assembly: Assembly, family: str, grain: str) -> Assembly:
+def _stamped(assembly: Assembly, family: str, grain: str, style: ModelingStyle) -> Assembly:
     return replace(
         assembly,
-        components=tuple(replace(c, family=family, granularity=c.granularity or grain) for c in assembly.components),
+        components=tuple(
+            replace(
+                c,
+                family=family,
+                granularity=c.granularity or grain,
+                made_in=style if c.params is not None else None,
+            )
+            for c in assembly.components
+        ),
     )

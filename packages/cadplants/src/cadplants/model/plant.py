@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
-from itertools import combinations
+from itertools import chain, combinations, count
 from typing import Any
 
 import numpy as np
@@ -80,6 +80,7 @@ class Component:
             nothing does, or where that was not annotated.
         params: what its device was built from, as plain JSON values, shared by all meshes of that device; None where
             that is not recorded.
+        made_in: the style that its device was built in, where it is recorded what from.
     """
 
     solid: Solid
@@ -99,6 +100,7 @@ class Component:
     front: tuple[float, float, float] | None = None
     turns: Turning | None = None
     params: Mapping[str, Any] | None = field(default=None, compare=False)
+    made_in: ModelingStyle | None = field(default=None, compare=False)
 
     @property
     def vertices(self) -> Floats:
@@ -342,6 +344,15 @@ class Plant(Assembly):
     def n_meshes(self) -> int:
         """How many meshes there are."""
         return len(self.components)
+
+    def device_styles(self) -> dict[ModelingStyle, str]:
+        """What the style of each device is called: its name, with a number behind it where another one has that."""
+        styles = dict.fromkeys(one.made_in for one in self.components if one.made_in is not None)
+        found: dict[ModelingStyle, str] = {}
+        for style in sorted(styles, key=lambda style: not style.published):
+            names = chain([style.name], (f"{style.name}/{k}" for k in count(2)))
+            found[style] = next(name for name in names if name not in found.values())
+        return found
 
     def paths(self) -> tuple[str, ...]:
         """Meaningless paths in component order, as ``scene()`` uses them."""

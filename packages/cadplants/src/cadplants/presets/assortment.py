@@ -318,7 +318,9 @@ def _taps(work: _Draw, style: ModelingStyle, dn: int, s: float) -> list[Tap]:
     if family is None:
         return []
     own, unit = work.grained(style), work.unit(family)
-    assembly = as_assembly(family, work.model(family, dn, own), own, unit)
+    # Most instruments are made in one size, whatever the pipe that they stand on.
+    size = min(family.sizes, key=lambda one: abs(one - dn))
+    assembly = as_assembly(family, work.model(family, size, own), own, unit)
     return [Tap(s, partial(_given, assembly), unit)]
 
 

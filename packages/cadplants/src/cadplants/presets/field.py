@@ -136,7 +136,7 @@ def _ladder(style: ModelingStyle, rng: np.random.Generator) -> Assembly:
     """A caged ladder that stands by itself beside the tank."""
     family = FAMILIES["ladder/cage"]
     seed = int(rng.integers(1000))
-    return whole(lambda number: as_assembly(family, family.build(0, style, Apart(seed, number)), style))
+    return whole(lambda number: as_assembly(family, family.build(family.sizes[0], style, Apart(seed, number)), style))
 
 
 def _yard(style: ModelingStyle, flips: tuple[int, int]) -> list[Assembly]:

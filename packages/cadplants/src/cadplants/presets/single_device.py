@@ -13,7 +13,7 @@ from cadplants.model.plant import Plant
 from cadplants.presets.taste import ALL_FAMILIES
 from cadplants.styles.modeling_style import STYLES, ModelingStyle
 
-__all__ = ["CARRIED", "draw_parameters", "family_called", "make_device", "usual_size"]
+__all__ = ["CARRIED", "draw_parameters", "family_called", "make_device", "rebuild", "usual_size"]
 
 CARRIED = 1.1
 """Height of the line's axis over the floor where a carrier is asked for and nobody says [m]."""
@@ -100,10 +100,40 @@ def make_device(
     Raises:
         ValueError: no such family, style, size or parameter, or a value can't be.
     """
-    family, style = family_called(name), _style_called(style)
+    style = _style_called(style)
     told = {**({"dn": dn} if dn is not None else {}), **(given or {})}
-    model = draw_parameters(name, seed, told, style).model(style)
-    unit = "X-1" if family.unit else ""
+    return _alone(family_called(name), draw_parameters(name, seed, told, style), style, seed)
+
+
+def rebuild(
+    record: Mapping[str, Any],
+    styles: Mapping[str, Mapping[str, Any]] | None = None,
+    style: str | ModelingStyle | None = None,
+) -> Plant:
+    """The device of a record, a row of ``devices`` in the truth of a plant: clean, and in coordinates of its own.
+
+    Args:
+        record: with ``family``, ``build``, ``params`` and maybe ``style``.
+        styles: what the same truth says of styles that have no name of their own.
+        style: that it is to be modelled in; that of the record, or plant-design CAD, if None.
+
+    Raises:
+        ValueError: no such family or style, or the parameters are not those of the family.
+    """
+    name = str(record.get("style", "plant-design"))
+    if style is None and name in (styles or {}):
+        style = ModelingStyle.from_json((styles or {})[name])
+    style = _style_called(name if style is None else style)
+    family = family_called("/".join(str(record.get(key, "")) for key in ("family", "build")))
+    params = record.get("params")
+    if not isinstance(params, Mapping):
+        raise ValueError(f"{family.name}: the record has no params")
+    return _alone(family, cast(Maker, family.build).device.from_json(params), style, 0)
+
+
+def _alone(family: Family, device: Device, style: ModelingStyle, seed: int) -> Plant:
+    """A device as a plant of its own."""
+    model, unit = device.model(style), "X-1" if family.unit else ""
     made = as_device(family, model, style, unit).assembly if family.place == "inline" else None
     assembly = met(made or as_assembly(family, model, style, unit)).marked(cluster="device", style=style.name)
-    return measured(Plant.of(assembly, name, seed, [style]))
+    return measured(Plant.of(assembly, family.name, seed, [style]))

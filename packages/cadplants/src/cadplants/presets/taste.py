@@ -8,17 +8,41 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from cadgraph.model.scene import Floats
+from cadgraph.model.vocabulary import default_vocabulary
+from cadplants.builder.device import Device, families_of
 from cadplants.families import FAMILIES
 from cadplants.families.lookalikes.lookalike import LOOKALIKES
 from cadplants.families.primitive.primitive import PRIMITIVES
 from cadplants.model.family import Family
 
-__all__ = ["ALL_FAMILIES", "OF_PRIMITIVES", "Taste"]
+__all__ = ["ALL_FAMILIES", "OF_PRIMITIVES", "Taste", "register"]
 
 ALL_FAMILIES: dict[str, Family] = {**FAMILIES, **PRIMITIVES, **LOOKALIKES}
 """The usual families, those of primitives and those of look-alikes, by name."""
 
+_PLACES = ("inline", "tap", "floor", "end", "head", "carrier")
 _POOLS: tuple[dict[str, Family], ...] = (FAMILIES, PRIMITIVES, LOOKALIKES)
+
+
+def register(*devices: type[Device]) -> tuple[Family, ...]:
+    """Makes devices of one's own families as all others, in this process: assortments draw them, commands know them.
+
+    Args:
+        devices: classes with a name.
+
+    Raises:
+        ValueError: one has no name or that of another family, or its place or group is none.
+    """
+    made = families_of(*devices)
+    for family in made:
+        if "/" not in family.name or family.name in ALL_FAMILIES:
+            raise ValueError(f"family {family.name!r}: give kind and construction, as no other has them")
+        if family.place not in _PLACES:
+            raise ValueError(f"{family.name}: place {family.place!r} is none of {', '.join(_PLACES)}")
+        if family.group not in default_vocabulary().groups:
+            raise ValueError(f"{family.name}: group {family.group!r} is not in the vocabulary")
+        FAMILIES[family.name] = ALL_FAMILIES[family.name] = family
+    return made
 
 
 @dataclass(frozen=True)

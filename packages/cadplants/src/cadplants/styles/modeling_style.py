@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
-from typing import Literal
+from dataclasses import dataclass, field, fields
+from typing import Any, Literal
 
 import numpy as np
 
@@ -103,6 +103,31 @@ class ModelingStyle:
     fittings: Literal["smooth", "long"] = "smooth"
     devices: Literal["built", "primitives"] = "built"
     palette: Mapping[str, RGB] = field(default_factory=lambda: _REALISTIC, compare=False)
+
+    @property
+    def published(self) -> bool:
+        """Whether its name is enough to know it."""
+        return STYLES.get(self.name) == self
+
+    def to_json(self) -> dict[str, Any]:
+        """All of it but the colours, as plain JSON values."""
+        said = ((one.name, getattr(self, one.name)) for one in fields(self) if one.name != "palette")
+        return {name: list(value) if isinstance(value, tuple) else value for name, value in said}
+
+    @classmethod
+    def from_json(cls, said: Mapping[str, Any]) -> ModelingStyle:
+        """What ``to_json`` has written down, in the usual colours.
+
+        Raises:
+            ValueError: it says something that no style has.
+        """
+        other = sorted(set(said) - {one.name for one in fields(cls)})
+        if other:
+            raise ValueError(f"a style has no {other[0]!r}")
+        values: dict[str, Any] = {
+            name: tuple(value) if isinstance(value, list) else value for name, value in said.items()
+        }
+        return cls(**values)
 
     @property
     def looseness(self) -> float:

@@ -65,10 +65,12 @@ class Proof:
     Args:
         n_checked: how many statements of each code were checked.
         findings: what is wrong; none proves the truth.
+        open: why some statements were not checked, for people: what the truth leaves open.
     """
 
     n_checked: Mapping[str, int]
     findings: tuple[Finding, ...]
+    open: tuple[str, ...] = ()
 
     @property
     def holds(self) -> bool:
@@ -106,7 +108,8 @@ class _Case:
 
     def devices(self) -> list[tuple[str, ...]]:
         """The meshes of each device whose parameters are known."""
-        return [tuple(row.get("meshes", ())) for row in (self.truth.model_extra or {}).get("devices") or ()]
+        rows = (self.truth.model_extra or {}).get("devices") or ()
+        return [tuple(mesh for mesh in row.get("meshes", ()) if mesh in self.index) for row in rows]
 
     def devices_of(self, unit: TruthUnit) -> set[str]:
         """The meshes of the devices that have meshes of a unit."""
@@ -163,7 +166,21 @@ def prove(scene: Scene, truth: Truth) -> Proof:
         outcomes = list(check(case))
         n_checked[code] = len(outcomes)
         findings += [Finding(code, message, meshes) for message, meshes in (o for o in outcomes if o is not None)]
-    return Proof(n_checked, tuple(findings))
+    return Proof(n_checked, tuple(findings), _left_open(truth))
+
+
+_NEEDS = {
+    "contacts": "whether clusters and units hang together, and what touches",
+    "clusters": "whether clusters are apart",
+    "units": "whether units hang together",
+    "lines": "whether pipes lie round their lines, and devices along them",
+}
+"""What can't be checked without a section."""
+
+
+def _left_open(truth: Truth) -> tuple[str, ...]:
+    """What a truth says too little for, with the section that it lacks."""
+    return tuple(f"{what} (no {section!r})" for section, what in _NEEDS.items() if getattr(truth, section) is None)
 
 
 _Outcomes = Iterator[tuple[str, tuple[str, ...]] | None]

@@ -78,18 +78,22 @@ def _units(plant: Plant, names: Sequence[str]) -> list[dict[str, Any]]:
 
 
 def _devices(plant: Plant, names: Sequence[str]) -> dict[str, Any]:
-    """The devices whose parameters are known, each with its meshes; nothing where none are."""
+    """The devices whose parameters are known, each with its style and its meshes; nothing where none are."""
     meshes: dict[int, list[int]] = {}
     for index, component in enumerate(plant.components):
         if component.params is not None:
             # All meshes of a device share one mapping, and two devices never do.
             meshes.setdefault(id(component.params), []).append(index)
-    rows = []
+    rows, styles = [], plant.device_styles()
     for members in meshes.values():
         first = plant.components[members[0]]
         family, _, build = first.family.partition("/")
-        rows.append({"family": family, "build": build, "params": first.params, "meshes": [names[i] for i in members]})
-    return {"devices": rows} if rows else {}
+        row = {"family": family, "build": build, "params": first.params, "meshes": [names[i] for i in members]}
+        if first.made_in is not None:
+            row["style"] = styles[first.made_in]
+        rows.append(row)
+    drawn = {name: style.to_json() for style, name in styles.items() if not style.published}
+    return {"devices": rows, **({"styles": drawn} if drawn else {})} if rows else {}
 
 
 def _turning(plant: Plant, names: Sequence[str]) -> dict[str, dict[str, Any]]:

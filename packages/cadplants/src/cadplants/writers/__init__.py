@@ -15,8 +15,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from cadgraph._io.atomic import replacing, write_atomically
 from cadgraph.errors import MissingExtra
+from cadplants.writers.together import together
 from cadplants.writers.usd import truth_path, write_usd
 from cadplants.writers.usd_style import UsdStyle
 
@@ -86,7 +86,7 @@ def format_of(path: str | Path, name: str | None = None) -> PlantFormat:
 def write_plant(
     plant: Plant, path: str | Path, style: UsdStyle | FileStyle | None = None, name: str | None = None
 ) -> Path:
-    """Writes a plant in any format, and its truth beside it.
+    """Writes a plant in any format, and its truth beside it; all files or none.
 
     Args:
         plant: what to write.
@@ -123,13 +123,12 @@ def write_plant(
         raise MissingExtra(f"writing {form.name.upper()} files", form.extra)
     target = Path(path)
     written: Written = importlib.import_module(form.module).write(plant, style, target.stem)
-    main, *others = written.files
-    for suffix in others:
-        write_atomically(target.with_suffix(suffix), written.files[suffix])
-    with replacing(target) as beside:
-        beside.write_bytes(written.files[main])
+    files = {target if k == 0 else target.with_suffix(end): data for k, (end, data) in enumerate(written.files.items())}
     truth = _truth(plant, written, form.name)
-    write_atomically(truth_path(target), json.dumps(truth, indent=1, sort_keys=False) + "\n")
+    files[truth_path(target)] = (json.dumps(truth, indent=1, sort_keys=False) + "\n").encode()
+    with together(*files) as beside:
+        for place, data in zip(beside, files.values(), strict=True):
+            place.write_bytes(data)
     return truth_path(target)
 
 

@@ -52,8 +52,9 @@ class Match:
 def match(scene: Scene, truth: Truth, tolerance: float = _TOLERANCE) -> Match:
     """Finds the meshes of a truth in a scene.
 
-    A mesh is the one whose box has its sides in the same places; of several that of the nearest centre. What is left
-    is looked for as pieces, by the boxes of these, then as a part of what is larger.
+    A mesh is the one whose box has its sides in the same places; of several that of the nearest centre. One of many
+    pieces is looked for as these first: one, say the rim of a wheel, may have the box of the whole. What is left
+    is looked for as any of its pieces, then as a part of what is larger.
 
     Args:
         scene: as loaded from the file beside the truth.
@@ -67,10 +68,22 @@ def match(scene: Scene, truth: Truth, tolerance: float = _TOLERANCE) -> Match:
     boxes, centers = _of_scene(scene)
     wanted = np.array([row.box for row in rows]).reshape(-1, 6)
     middles = np.array([row.center for row in rows]).reshape(-1, 3)
-    same = _pairs(wanted, middles, boxes, centers, np.arange(scene.n_meshes), tolerance)
-    free = _without(range(scene.n_meshes), same.values())
-    left = _without(range(len(rows)), same)
-    split = _pieces(rows, left, boxes, free, tolerance)
+    every = np.arange(len(rows))
+    plain = np.array([not row.pieces for row in rows], np.bool_)
+
+    def whole(left: Ints, free: Ints) -> dict[int, int]:
+        found = _pairs(wanted[left], middles[left], boxes, centers, free, tolerance)
+        return {int(left[k]): i for k, i in found.items()}
+
+    free = np.arange(scene.n_meshes)
+    same = whole(every[plain], free)
+    free = _without(free, same.values())
+    split = _apart(rows, every[~plain], boxes, free, tolerance)
+    free, left = _without(free, *split.values()), _without(every, same, split)
+    same |= whole(left, free)
+    free, left = _without(free, same.values()), _without(left, same)
+    for k, some in _pieces(rows, left, list(split), boxes, free, tolerance).items():
+        split[k] = sorted([*split.get(k, ()), *some])
     free, left = _without(free, *split.values()), _without(left, split)
     merged = _unions(rows, left, boxes, free, tolerance)
     return _named(rows, scene.paths, same, split, merged, _without(left, *merged.values()), _without(free, merged))
@@ -105,7 +118,8 @@ def truth_for(scene: Scene, truth: Truth, tolerance: float = _TOLERANCE) -> Trut
 
     Pieces of one mesh have its label, unit and cluster each, and are one part. What several meshes became one of has
     their label where they agree, and none where they don't. Contacts are left out where anything was split or merged,
-    as it isn't known which pieces touch. A unit of which nothing is there is left out with its connections.
+    as it isn't known which pieces touch; else the looseness grows to what a reader's facets leave between parts. A unit
+    of which nothing is there is left out with its connections.
 
     Args:
         scene: as loaded from the file beside the truth.
@@ -124,13 +138,27 @@ def truth_for(scene: Scene, truth: Truth, tolerance: float = _TOLERANCE) -> Trut
     data["clusters"] = _grouped(data["clusters"], "meshes", now)
     data["parts"] = _parts(data["parts"], found, now)
     data["contacts"] = None if found.split or found.merged else _mapped_pairs(data["contacts"], now)
+    if data["contacts"]:
+        data["looseness"] = max(data["looseness"] or 0.0, _gap(scene, data["contacts"], tolerance))
     data["duplicates"] = _mapped_pairs(data["duplicates"], now) or []
+    if "devices" in data:
+        data["devices"] = [row for row in _grouped(data["devices"], "meshes", now) or () if row["meshes"]]
     for section in ("hidden", "wrong_classes", "missing_names"):
         if section in data:
             data[section] = list(_flat(data[section], now))
     for section in ("flaws", "gaps"):
         data[section] = {path: value for old, value in data[section].items() for path in now.get(old, ())}
     return Truth.from_json(data)
+
+
+def _gap(scene: Scene, pairs: Sequence[Sequence[str]], most: float) -> float:
+    """The widest gap of pairs of meshes, rounded up to a micrometre, of those that a reader may have made [m]."""
+    from cadgraph.geometry.contact.pairs import distances
+
+    number = {path: i for i, path in enumerate(scene.paths)}
+    found, _ = distances(scene, [(number[a], number[b]) for a, b in pairs], 2 * most)
+    small = found[found <= most]
+    return float(np.ceil(small.max() * 1e6) / 1e6) if len(small) else 0.0
 
 
 def _map_units(data: dict[str, Any], now: _Now) -> None:
@@ -211,18 +239,32 @@ def _pairs(
     return found
 
 
-def _pieces(rows: Sequence[_Row], left: Ints, boxes: Floats, free: Ints, tolerance: float) -> dict[int, list[int]]:
-    """Meshes of the scene that are pieces of one of the truth, by its number."""
-    whole: list[int] = left.tolist()
-    owners = [k for k in whole for _ in rows[k].pieces]
-    wanted = np.array([piece for k in whole for piece in rows[k].pieces]).reshape(-1, 6)
+def _apart(rows: Sequence[_Row], left: Ints, boxes: Floats, free: Ints, tolerance: float) -> dict[int, list[int]]:
+    """Meshes of the scene that are most of the pieces of one of the truth, by its number."""
+    found = _of_boxes(rows, left, free, boxes, tolerance)
+    return {k: some for k, some in found.items() if len(some) > max(1, len(rows[k].pieces) // 2)}
+
+
+def _of_boxes(rows: Sequence[_Row], left: Ints, free: Ints, boxes: Floats, tolerance: float) -> dict[int, list[int]]:
+    """Meshes of the scene whose boxes are those of pieces of one of the truth, by its number."""
+    owners = [k for k in left.tolist() for _ in rows[k].pieces]
+    wanted = np.array([piece for k in left.tolist() for piece in rows[k].pieces]).reshape(-1, 6)
     middles = (wanted[:, :3] + wanted[:, 3:]) / 2
     inner = (boxes[:, :3] + boxes[:, 3:]) / 2
     found: dict[int, list[int]] = defaultdict(list)
     for piece, i in _pairs(wanted, middles, boxes, inner, free, tolerance).items():
         found[owners[piece]].append(i)
+    return {k: sorted(some) for k, some in found.items()}
+
+
+def _pieces(
+    rows: Sequence[_Row], left: Ints, begun: Sequence[int], boxes: Floats, free: Ints, tolerance: float
+) -> dict[int, list[int]]:
+    """Further meshes of the scene that are pieces of one of the truth, by its number; some are found in part."""
+    found = defaultdict(list, _of_boxes(rows, left, free, boxes, tolerance))
     used = {i for some in found.values() for i in some}
     # What is cut otherwise lies within the mesh that it is from; the smallest that holds it is the likeliest.
+    whole = [*left.tolist(), *begun]
     sizes = {k: float(np.linalg.norm(rows[k].box[3:] - rows[k].box[:3])) for k in whole}
     for i in free.tolist():
         holders = [k for k in whole if i not in used and _within(boxes[i], rows[k].box, tolerance)]

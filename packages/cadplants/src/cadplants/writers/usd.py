@@ -5,9 +5,9 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-from cadgraph._io.atomic import replacing, write_atomically
 from cadplants.model.plant import Plant
 from cadplants.truth.truth_writer import truth_of
+from cadplants.writers.together import together
 from cadplants.writers.usd_style import UsdStyle
 
 __all__ = ["truth_path", "write_usd"]
@@ -21,7 +21,7 @@ def truth_path(path: str | Path) -> Path:
 def write_usd(plant: Plant, path: str | Path, style: UsdStyle | None = None) -> Path:
     """Writes a plant as USD with meaningless names, and its truth beside it.
 
-    Both are written beside their targets first, then renamed over them.
+    Both are written beside their targets first, then renamed over them, the truth before the scene.
 
     Args:
         plant: what to write.
@@ -43,18 +43,18 @@ def write_usd(plant: Plant, path: str | Path, style: UsdStyle | None = None) -> 
     from cadplants.writers.usd_layer import LayerWriter  # brings the USD library
 
     layout = style or UsdStyle()
-    with replacing(target) as beside:
+    with together(target, truth_path(target)) as (scene, beside):
         writer = LayerWriter(plant, layout)
-        writer.save(beside)
-    truth = truth_of(plant, writer.paths)
-    for index in sorted(writer.polygonal):
-        truth["flaws"].setdefault(writer.paths[index], []).append("polygons")
-    truth |= {
-        "colors": plant.colors if layout.colors else "none",
-        "instances": layout.instances,
-        "nested": layout.nested,
-        "meters_per_unit": layout.meters_per_unit,
-        "up_axis": layout.up_axis,
-    }
-    write_atomically(truth_path(target), json.dumps(truth, indent=1, sort_keys=False) + "\n")
+        writer.save(scene)
+        truth = truth_of(plant, writer.paths)
+        for index in sorted(writer.polygonal):
+            truth["flaws"].setdefault(writer.paths[index], []).append("polygons")
+        truth |= {
+            "colors": plant.colors if layout.colors else "none",
+            "instances": layout.instances,
+            "nested": layout.nested,
+            "meters_per_unit": layout.meters_per_unit,
+            "up_axis": layout.up_axis,
+        }
+        beside.write_bytes((json.dumps(truth, indent=1, sort_keys=False) + "\n").encode())
     return truth_path(target)
