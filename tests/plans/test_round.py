@@ -159,6 +159,11 @@ def test_a_pump_that_was_stopped_before_comes_to_no_harm():
     )
 
 
+def test_a_pump_of_unknown_kind_is_not_told_to_be_a_check_valve():
+    known, planned = made("stop P-001", pumping())
+    assert not any("check valve" in line for line in doubt_lines(known, planned))
+
+
 def test_starting_a_pump_without_a_supply_is_told_as_harm():
     known, planned = made("close V-002; start P-001", pumping())
     assert "! start P-001: P-001 would run dry" in doubt_lines(known, planned)

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
 from cadgraph.model.records import Terminal
-from cadgraph.plans.goals import OFF, Goal
+from cadgraph.plans.goals import Goal
 from cadgraph.query.network import Network
 from cadgraph.query.what_if import ALL_RUN, Consequence, WhatIf, what_if, would_run_dry
 
@@ -38,9 +38,9 @@ def off_before(goals: Iterable[Goal]) -> frozenset[str]:
     """
     first: dict[str, Goal] = {}
     for goal in sorted(goals, key=lambda goal: goal.stage):
-        if goal.action in OFF:
+        if goal.turns:
             first.setdefault(goal.unit, goal)
-    return frozenset(unit for unit, goal in first.items() if not OFF[goal.action])
+    return frozenset(unit for unit, goal in first.items() if not goal.verb.off)
 
 
 def changes_of(network: Network, goals: Sequence[Goal]) -> tuple[Change, ...]:
@@ -57,19 +57,19 @@ def changes_of(network: Network, goals: Sequence[Goal]) -> tuple[Change, ...]:
     now = _asked(network, off)
     found: list[Change] = []
     for goal in goals:
-        if goal.action == "read":
+        if not goal.turns:
             found.append(_reading(network, goal, now))
             continue
         if not network.arcs(goal.unit):
             unsaid = f"no line was found at {goal.name}: what turning it changes is not known"
             found.append(Change(notes=(unsaid,)))
             continue
-        (off.add if OFF[goal.action] else off.discard)(goal.unit)
+        (off.add if goal.verb.off else off.discard)(goal.unit)
         after = _asked(network, off)
-        if goal.action in ("stop", "start"):
+        if goal.verb.unit_type == "pump":
             found.append(_pumping(goal, now, after))
         else:
-            found.append(_closing(goal, now, after) if OFF[goal.action] else _opening(network, goal, now, after))
+            found.append(_closing(goal, now, after) if goal.verb.off else _opening(network, goal, now, after))
         now = after
     return tuple(found)
 
@@ -77,19 +77,19 @@ def changes_of(network: Network, goals: Sequence[Goal]) -> tuple[Change, ...]:
 def assumptions_of(network: Network, goals: Sequence[Goal]) -> tuple[str, ...]:
     """What the changes of a round suppose, a sentence each."""
     before = off_before(goals)
-    turned = {goal.unit: goal for goal in goals if goal.action in OFF}
+    turned = {goal.unit: goal for goal in goals if goal.turns}
     told = []
     for action, state in (("open", "shut"), ("start", "stopped")):
         off = {goal.name: None for goal in goals if goal.action == action and goal.unit in before}
         if off:
             told.append(f"{_and(off)} {'is' if len(off) == 1 else 'are'} {state} before the round")
-    pumps = {goal.name: None for goal in turned.values() if goal.action in ("stop", "start")}
+    pumps = {goal.name: None for goal in turned.values() if goal.verb.unit_type == "pump"}
     if pumps:
         told.append(
             f"what is told is what has a supply, not what flows: what stands still while {_and(pumps)} "
             f"{'is' if len(pumps) == 1 else 'are'} stopped, 'cadgraph simulate' works out"
         )
-    answer = _asked(network, [unit for unit, goal in turned.items() if goal.action in ("close", "open")])
+    answer = _asked(network, list(turned))
     supposed = answer.assumptions if answer is not None else ()
     return (*told, *(_all_others(text) if pumps else text for text in supposed))
 

@@ -11,33 +11,45 @@ from cadgraph._io.text import printable, shortened
 from cadgraph.errors import AskError
 from cadgraph.model.records import Node, Unit
 
-__all__ = ["MOST_GOALS", "OFF", "PAST", "STATES", "Action", "Goal", "goals_text", "parse_goals", "shown"]
+__all__ = ["MOST_GOALS", "VERBS", "Action", "Goal", "Verb", "goals_text", "parse_goals", "shown"]
 
 Action = Literal["read", "close", "open", "stop", "start"]
 
 MOST_GOALS = 200
 """Most goals of a round; the order of more is not looked for."""
 
-PAST: Mapping[Action, str] = {
-    "read": "read",
-    "close": "closed",
-    "open": "opened",
-    "stop": "stopped",
-    "start": "started",
+
+@dataclass(frozen=True)
+class Verb:
+    """What can be done to a unit.
+
+    Args:
+        unit_type: that it is done to.
+        past: what was done, once it is.
+        off: whether the unit is off after it, a valve shut, a pump stopped; None where nothing is turned.
+        state: what the unit is after it; ``""`` where nothing is turned.
+        back: what undoes it; None likewise.
+    """
+
+    unit_type: str
+    past: str
+    off: bool | None = None
+    state: str = ""
+    back: Action | None = None
+
+
+VERBS: Mapping[Action, Verb] = {
+    "read": Verb("gauge", "read"),
+    "close": Verb("valve", "closed", True, "closed", "open"),
+    "open": Verb("valve", "opened", False, "open", "close"),
+    "stop": Verb("pump", "stopped", True, "stopped", "start"),
+    "start": Verb("pump", "started", False, "running", "stop"),
 }
-"""What is done of each goal, once it is done."""
-
-OFF: Mapping[Action, bool] = {"close": True, "open": False, "stop": True, "start": False}
-"""Whether what is turned is off after it: a valve shut, a pump stopped."""
-
-STATES: Mapping[Action, str] = {"close": "closed", "open": "open", "stop": "stopped", "start": "running"}
-"""What it is after it."""
+"""What each action is."""
 
 _EXAMPLE = "as in 'read G-003, G-007; stop P-001; close V-002'"
-_BACK: Mapping[Action, Action] = {"close": "open", "open": "close", "stop": "start", "start": "stop"}
-_VERBS = "read, close, open, stop or start"
+_ANY = "read, close, open, stop or start"
 _PLAIN = re.compile(r"[\w.+#/-]+")
-_DONE_AT = {"read": "gauge", "close": "valve", "open": "valve", "stop": "pump", "start": "pump"}
 # Valves that nobody turns: to ask for it is a mistake, of the one who asks or of a label.
 _NOT_BY_HAND = (
     ("check", "closes and opens by itself, nobody turns it by hand"),
@@ -61,6 +73,16 @@ class Goal:
     unit: str
     name: str
     stage: int = 0
+
+    @property
+    def verb(self) -> Verb:
+        """What the action is."""
+        return VERBS[self.action]
+
+    @property
+    def turns(self) -> bool:
+        """Whether something is turned or switched, and not only read."""
+        return self.verb.off is not None
 
 
 def parse_goals(text: str, find: Callable[[str], Node]) -> tuple[Goal, ...]:
@@ -93,9 +115,9 @@ def parse_goals(text: str, find: Callable[[str], Node]) -> tuple[Goal, ...]:
             said = _verb(words[0])
             action, name = (said, " ".join(words[1:])) if said is not None else (action, " ".join(words))
             if action is None:
-                raise AskError(f"{shown(words[0])!r} is no verb; begin with {_VERBS}, {_EXAMPLE}")
+                raise AskError(f"{shown(words[0])!r} is no verb; begin with {_ANY}, {_EXAMPLE}")
             if not name:
-                raise AskError(f"{action} what? Name a {_DONE_AT[action]}, {_EXAMPLE}")
+                raise AskError(f"{action} what? Name a {VERBS[action].unit_type}, {_EXAMPLE}")
             goal = _goal(action, name, find, stage)
             if goal not in goals:
                 goals.append(goal)
@@ -120,10 +142,10 @@ def _verb(word: str) -> Action | None:
 def _goal(action: Action, name: str, find: Callable[[str], Node], stage: int) -> Goal:
     node = find(name)
     name = shown(node.tag if isinstance(node, Unit) else node.id)
-    wanted = _DONE_AT[action]
+    wanted = VERBS[action].unit_type
     if not isinstance(node, Unit) or node.unit_type != wanted:
         what = (node.kind or node.unit_type) if isinstance(node, Unit) else node.layer
-        raise AskError(f"{name} is a {shown(what)}, and only a {wanted} can be {PAST[action]}")
+        raise AskError(f"{name} is a {shown(what)}, and only a {wanted} can be {VERBS[action].past}")
     kind = (node.kind or "").casefold()
     for word, why in _NOT_BY_HAND:
         if action != "read" and word in kind:
@@ -133,7 +155,7 @@ def _goal(action: Action, name: str, find: Callable[[str], Node], stage: int) ->
 
 def _check(goals: list[Goal]) -> None:
     if not goals:
-        raise AskError(f"no goals; say what to {_VERBS}, {_EXAMPLE}")
+        raise AskError(f"no goals; say what to {_ANY}, {_EXAMPLE}")
     if len(goals) > MOST_GOALS:
         raise AskError(f"{len(goals)} goals; at most {MOST_GOALS} go into a round, ask for several")
     done: dict[tuple[str, int], Goal] = {}
@@ -141,18 +163,17 @@ def _check(goals: list[Goal]) -> None:
         other = done.setdefault((goal.unit, goal.stage), goal)
         if other.action != goal.action:
             raise AskError(
-                f"{goal.name} is to be {PAST[other.action]} and {PAST[goal.action]} in any order; put a semicolon "
+                f"{goal.name} is to be {other.verb.past} and {goal.verb.past} in any order; put a semicolon "
                 f"between, as in '{other.action} {goal.name}; {goal.action} {goal.name}'"
             )
     state: dict[str, Goal] = {}
     for goal in goals:
-        if goal.action == "read":
+        if goal.verb.back is None:
             continue
         last = state.get(goal.unit)
         if last is not None and last.action == goal.action:
-            raise AskError(
-                f"{goal.name} is to be {PAST[goal.action]} twice without being {PAST[_BACK[goal.action]]} between"
-            )
+            back = VERBS[goal.verb.back].past
+            raise AskError(f"{goal.name} is to be {goal.verb.past} twice without being {back} between")
         state[goal.unit] = goal
 
 

@@ -20,6 +20,8 @@ from cadgraph.plans.text import doubt_lines, supposed_lines
 
 __all__ = ["domain_text", "plan_text", "problem_text"]
 
+# What a valve or a pump is, on and off.
+_STATES = {"valve": ("is-open", "is-shut"), "pump": ("runs", "is-stopped")}
 _RESERVED = {"and", "or", "not", "either", "object", "number", "define", "none", "assign", "increase", "forall", "when"}
 
 
@@ -148,11 +150,9 @@ def _facts(known: Survey, goals: Sequence[Goal], names: _Names) -> Iterator[str]
         stop = known.stops[unit]
         yield f"(works-at {name} {names.spots[stop.spot]})"
         yield f"(within-reach {name})" if stop.aid is None else f"(out-of-reach {name})"
-        done = {goal.action for goal in goals if goal.unit == unit}
-        if not done.isdisjoint(("close", "open")):
-            yield f"(is-shut {name})" if unit in off else f"(is-open {name})"
-        if not done.isdisjoint(("stop", "start")):
-            yield f"(is-stopped {name})" if unit in off else f"(runs {name})"
+        turned = next((goal for goal in goals if goal.unit == unit and goal.turns), None)
+        if turned is not None:
+            yield f"({_STATES[turned.verb.unit_type][unit in off]} {name})"
     for number, goal in enumerate(goals, start=1):
         yield f"(to-{goal.action} task-{number} {names.units[goal.unit]})"
         yield f"(belongs task-{number} {_stage(goal.stage)})"

@@ -218,21 +218,21 @@ def _needs(known: Survey, goal: Goal, stop: Stop) -> tuple[str, ...]:
     if access is not None and stop.aid is None:
         level = known.terrain.name(stop.spot.level)
         told.append(f"its {worked_at(stop.unit)} is {access.height:.1f} m above the {level}")
-    if goal.action != "read" and "control" in (stop.unit.kind or "").casefold():
+    if goal.turns and "control" in (stop.unit.kind or "").casefold():
         told.append("a control valve moves by its actuator: turn it from the control room or by its handwheel")
     return tuple(told)
 
 
 def _unsure(goal: Goal, stop: Stop) -> Iterator[str]:
     unit, access = stop.unit, stop.unit.access
-    if goal.action != "read" and unit.kind is None:
+    if goal.verb.unit_type == "valve" and unit.kind is None:
         yield "its kind is not known: it may be a check valve, which nobody turns by hand"
     if goal.action == "read" and access is not None and access.viewpoint is None:
         yield "no point was found from which its face is seen"
 
 
 def _supposed(known: Survey, order: Sequence[Goal]) -> Iterator[str]:
-    if any(goal.action in ("stop", "start") for goal in order):
+    if any(goal.verb.unit_type == "pump" for goal in order):
         yield "pumps are stopped and started where they stand; one that is switched elsewhere takes no walk"
     if not known.terrain.known:
         yield (

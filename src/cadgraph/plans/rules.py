@@ -19,7 +19,7 @@ from dataclasses import dataclass, field
 
 from cadgraph.model.records import Unit
 from cadgraph.plans.changes import off_before
-from cadgraph.plans.goals import OFF, PAST, STATES, Goal
+from cadgraph.plans.goals import Goal
 from cadgraph.plans.round import Doing, Round, Survey
 from cadgraph.plans.stops import Spot, Stop
 
@@ -124,7 +124,7 @@ class _Game:
     def __post_init__(self) -> None:
         self.here = self.known.start
         off = off_before(self.goals)
-        self.off |= {goal.unit: goal.unit in off for goal in self.goals if goal.action in OFF}
+        self.off |= {goal.unit: goal.unit in off for goal in self.goals if goal.turns}
 
     def play(self, move: Move) -> None:
         """One step."""
@@ -144,7 +144,7 @@ class _Game:
         """What must be so at the end."""
         for goal in self.goals:
             if goal not in self.done:
-                self._wrong(f"{goal.name} is not {PAST[goal.action]}")
+                self._wrong(f"{goal.name} is not {goal.verb.past}")
         start = self.known.start
         if start.point is None:
             if self.here.level != start.level:
@@ -206,10 +206,10 @@ class _Game:
                 self._wrong(f"{move.do} {name} comes before {other.action} {other.name}, which is asked to come first")
         if stop.aid is not None and move.target not in self.set_up:
             self._wrong(f"{name} takes a ladder or lift, which was not set up: {stop.aid}")
-        if goal.action in OFF:
-            if self.off.get(move.target) is OFF[goal.action]:
-                self._wrong(f"{name} is {STATES[goal.action]} already")
-            self.off[move.target] = OFF[goal.action]
+        if goal.verb.off is not None:
+            if self.off.get(move.target) is goal.verb.off:
+                self._wrong(f"{name} is {goal.verb.state} already")
+            self.off[move.target] = goal.verb.off
         self.done.add(goal)
 
     def _standing_at(self, move: Move) -> Stop | None:

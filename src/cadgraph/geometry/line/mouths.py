@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from cadgraph.geometry.line.centreline import Branch, Centreline, End, Junction
+from cadgraph.geometry.mesh.axis_hits import hits, in_frame
 from cadgraph.model.scene import Floats
 from cadgraph.model.shapes import Disc
 
@@ -127,17 +128,8 @@ def _is_back(mouth: Mouth, mouths: Sequence[Mouth], triangles: Floats) -> bool:
 
 def _looks_at(mouth: Mouth, triangles: Floats) -> bool:
     """Whether a face has surface of its own shape ahead of its middle."""
-    edges, sides = triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
-    across = np.cross(mouth.direction, sides)
-    det = (edges * across).sum(axis=1)
-    flat = np.abs(det) <= 1e-18
-    offset = mouth.point - triangles[:, 0]
-    u = (offset * across).sum(axis=1) / np.where(flat, 1.0, det)
-    turned = np.cross(offset, edges)
-    v = turned @ mouth.direction / np.where(flat, 1.0, det)
-    ahead = (turned * sides).sum(axis=1) / np.where(flat, 1.0, det)
-    inside = (u >= -1e-9) & (v >= -1e-9) & (u + v <= 1 + 1e-9)
-    return bool((inside & ~flat & (ahead > _LEVEL * mouth.radius)).any())
+    corners = in_frame(triangles, mouth.point, mouth.direction)
+    return bool((hits(corners, np.zeros(2)) > _LEVEL * mouth.radius).any())
 
 
 def _stands_around(mouth: Mouth, mouths: Sequence[Mouth]) -> bool:

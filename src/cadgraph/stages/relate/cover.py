@@ -7,6 +7,7 @@ from typing import Literal
 
 import numpy as np
 
+from cadgraph.geometry.mesh.axis_hits import hits, in_frame
 from cadgraph.model.parts import Parts
 from cadgraph.model.scene import Floats
 from cadgraph.stages.relate.body_shape import triangles_of
@@ -44,13 +45,12 @@ def cover_of(parts: Parts, others: Collection[int], ends: Ends, row: int) -> Cov
         None where nothing lies before the whole mouth.
     """
     point, way, radius = ends.point[row], ends.direction[row], float(ends.radius[row])
-    across = np.linalg.svd(way[None])[2][1:]
     near = max(_NEAR * radius, _LEAST_NEAR)
     for part in sorted(others):
         low, high = parts.properties.aabb[part]
         if (point < low - radius).any() or (point > high + radius).any():
             continue
-        corners = (triangles_of(parts, part) - point) @ np.vstack([across, way]).T
+        corners = in_frame(triangles_of(parts, part), point, way)
         thick = _thickness(corners, radius, near)
         if thick is None:
             continue
@@ -77,7 +77,7 @@ def _thickness(corners: Floats, radius: float, near: float) -> float | None:
     rings = [share * radius * np.column_stack([np.cos(angles), np.sin(angles)]) for share in _RINGS]
     thickest = 0.0
     for place in np.concatenate([np.zeros((1, 2)), *rings]):
-        heights = _pierced(corners, place)
+        heights = hits(corners, place)
         first = heights[np.abs(heights) <= near]
         if not len(first):
             return None
@@ -89,21 +89,6 @@ def _run_of(heights: Floats, first: float) -> float:
     """From where a surface is entered to where it is left next; 0 where it is not left."""
     beyond = heights[heights > first + 1e-5]
     return float(beyond.min() - first) if len(beyond) else 0.0
-
-
-def _pierced(corners: Floats, place: Floats) -> Floats:
-    """``(k,)`` where a line along the third axis goes through triangles."""
-    a, b, c = (corners[:, k, :2] for k in range(3))
-    u, v, w = b - a, c - a, place - a
-    twice = u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]
-    flat = np.abs(twice) <= 1e-15
-    twice = np.where(flat, 1.0, twice)
-    s = (w[:, 0] * v[:, 1] - w[:, 1] * v[:, 0]) / twice
-    t = (u[:, 0] * w[:, 1] - u[:, 1] * w[:, 0]) / twice
-    hit = ~flat & (s >= -1e-9) & (t >= -1e-9) & (s + t <= 1 + 1e-9)
-    z = corners[:, :, 2]
-    found: Floats = (z[:, 0] + s * (z[:, 1] - z[:, 0]) + t * (z[:, 2] - z[:, 0]))[hit]
-    return found
 
 
 def _goes_on(ends: Ends, row: int, reach: float) -> bool:

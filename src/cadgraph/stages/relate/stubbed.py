@@ -15,6 +15,7 @@ import numpy as np
 
 from cadgraph.geometry.line.centreline import Centreline
 from cadgraph.model.parts import Joint
+from cadgraph.model.probabilities import Probabilities
 from cadgraph.model.vocabulary import FASTENERS
 from cadgraph.stages.relate.belief import beliefs_of
 from cadgraph.stages.relate.cover import cover_of
@@ -85,36 +86,33 @@ def find_stubbed(
         traced: line of each part that has one.
         lines: of the parts that carry one already.
     """
-    tubes, fittings = _tubes(candidates, traced, lines), _fittings(given, candidates, traced, lines)
-    if not tubes and not fittings:
+    tubes, uneven = _by_shape(candidates, traced, lines)
+    loose = [*tubes, *_likely_piping(given, uneven)]
+    if not loose:
         return Stubbed({})
     vessels, pumps = _parts_of(given, roles, _VESSELS), _parts_of(given, roles, _PUMPS)
-    ends = gather_ends({part: traced[part] for part in (*tubes, *fittings)})
-    sight = _Sight(given, ends, lines, vessels, pumps)
+    sight = _Sight(given, gather_ends({part: traced[part] for part in loose}), lines, vessels, pumps)
     found = {part: traced[part] for part in tubes if sight.is_branch(part)}
-    left = [part for part in (*tubes, *fittings) if part not in found]
-    return Stubbed(found, tuple(joint for part in left for joint in sight.open_joints(part)))
+    return Stubbed(found, tuple(joint for part in loose if part not in found for joint in sight.open_joints(part)))
 
 
-def _tubes(candidates: Sequence[int], traced: Mapping[int, Centreline], lines: Collection[int]) -> list[int]:
-    """The candidates with a line of one radius that is not one of the network already."""
-    return [part for part in candidates if part in traced and part not in lines and is_steady(traced[part])]
+def _by_shape(
+    candidates: Sequence[int], traced: Mapping[int, Centreline], lines: Collection[int]
+) -> tuple[list[int], list[int]]:
+    """The candidates with a line of one radius that is not one of the network already, and such with one of several."""
+    steady = {part: is_steady(traced[part]) for part in candidates if part in traced and part not in lines}
+    return [part for part in steady if steady[part]], [part for part in steady if not steady[part]]
 
 
-def _fittings(
-    given: RelateInput, candidates: Sequence[int], traced: Mapping[int, Centreline], lines: Collection[int]
-) -> list[int]:
-    """The candidates with a line of several radii that the labeler finds likely to be piping, without being sure: a
-    conical socket on the side of a line, with a branch that nobody is sure of either.
+def _likely_piping(given: RelateInput, some: Sequence[int]) -> list[int]:
+    """Those parts that the labeler finds likely to be piping, without being sure: of several radii, a conical socket on
+    the side of a line, with a branch that nobody is sure of either.
     """
-    likely = beliefs_of(given.labels, given.probabilities, given.vocabulary).of_groups(
-        given.vocabulary.connector_groups
-    )
-    return [
-        part
-        for part in candidates
-        if part in traced and part not in lines and not is_steady(traced[part]) and likely[part] >= _LIKELY
-    ]
+    known = given.probabilities
+    own = Probabilities(known.classes, known.values[list(some)]) if known is not None else None
+    beliefs = beliefs_of([given.labels[part] for part in some], own, given.vocabulary)
+    likely = beliefs.of_groups(given.vocabulary.connector_groups).tolist()
+    return [part for part, share in zip(some, likely, strict=True) if share >= _LIKELY]
 
 
 @dataclass(frozen=True, eq=False)

@@ -5,13 +5,12 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
-from itertools import chain, count
 
 import numpy as np
 
 from cadgraph.geometry.components import connected_sets
 from cadgraph.model.scene import Scene
-from cadplants.model.plant import Assembly, Component, Plant
+from cadplants.model.plant import Assembly, Component, Plant, free_name
 
 __all__ = ["APART", "measured", "met", "on_ground", "whole"]
 
@@ -97,8 +96,7 @@ def measured(plant: Plant) -> Plant:
     said = {(min(pair), max(pair)) for pair in plant.contacts}
     within = plant.looseness + _TOUCH
     contacts = {pair for pair, gap in gaps.items() if gap <= _SURELY or (pair in said and gap <= within)}
-    apart = {copy for _, copy in plant.duplicates} | set(plant.hidden)
-    names = {i: one.cluster for i, one in enumerate(plant.components) if one.cluster and i not in apart}
+    names = {i: cluster for i in _own(plant) if (cluster := plant.components[i].cluster)}
     units: dict[str, list[int]] = defaultdict(list)
     for i in names:
         units[plant.components[i].unit].append(i)
@@ -113,12 +111,17 @@ def measured(plant: Plant) -> Plant:
     return _units_apart(whole, units)
 
 
+def _own(plant: Plant) -> list[int]:
+    """The components that are neither copies nor hidden."""
+    apart = {copy for _, copy in plant.duplicates} | set(plant.hidden)
+    return [i for i in range(plant.n_meshes) if i not in apart]
+
+
 def _near(plant: Plant) -> dict[_Pair, float]:
     """The distances of all components that come within the contact distance [m]; of neither copies nor hidden ones."""
     from cadgraph.geometry.contact.pairs import find_contacts
 
-    apart = {copy for _, copy in plant.duplicates} | set(plant.hidden)
-    own = [i for i in range(plant.n_meshes) if i not in apart]
+    own = _own(plant)
     scene = Scene.from_meshes([(plant.components[i].vertices, plant.components[i].faces) for i in own])
     near = find_contacts(scene, APART)
     pairs = [(own[a], own[b]) for a, b in near.pairs.tolist()]
@@ -135,18 +138,12 @@ def _units_apart(plant: Plant, units: Mapping[str, Sequence[int]]) -> Plant:
         device = [i for i, one in enumerate(components) if i in own or id(one.params) in records]
         pieces = [own.intersection(piece) for piece in connected_sets(device, plant.contacts)]
         for piece in sorted((piece for piece in pieces if piece), key=lambda piece: (-len(piece), min(piece)))[1:]:
-            name = _new_name(unit.id, taken)
+            name = free_name(unit.id, taken)
+            taken.add(name)
             made.append(replace(unit, id=name))
             for i in piece:
                 components[i] = replace(components[i], unit=name)
     return replace(plant, components=tuple(components), units=tuple(made)) if len(made) > len(plant.units) else plant
-
-
-def _new_name(name: str, taken: set[str]) -> str:
-    """A name that is not taken, with a number behind it where it is; it is taken then."""
-    fresh = next(one for one in chain([name], (f"{name}/{k}" for k in count(2))) if one not in taken)
-    taken.add(fresh)
-    return fresh
 
 
 def _bridges(some: Sequence[int], contacts: Iterable[_Pair], gaps: Mapping[_Pair, float]) -> set[_Pair]:
@@ -172,5 +169,7 @@ def _clusters(names: Mapping[int, str], near: Iterable[_Pair]) -> dict[int, str]
     found: dict[int, str] = {}
     for piece in sorted(pieces, key=lambda piece: (-len(piece), piece[0])):
         own = [names[i] for i in piece]
-        found |= dict.fromkeys(piece, _new_name(max(dict.fromkeys(own), key=own.count), taken))
+        name = free_name(max(dict.fromkeys(own), key=own.count), taken)
+        taken.add(name)
+        found |= dict.fromkeys(piece, name)
     return found

@@ -26,6 +26,7 @@ __all__ = [
     "Point",
     "Turning",
     "Unit",
+    "free_name",
     "gather",
     "turned_front",
 ]
@@ -278,6 +279,11 @@ class Device:
     wafer: bool = False
 
 
+def free_name(name: str, taken: Collection[str]) -> str:
+    """A name, with a number behind it where it is taken."""
+    return next(one for one in chain([name], (f"{name}/{k}" for k in count(2))) if one not in taken)
+
+
 def gather(assemblies: Iterable[Assembly], joints: Sequence[tuple[int, int]] = ()) -> Assembly:
     """One assembly out of several, in order.
 
@@ -350,8 +356,7 @@ class Plant(Assembly):
         styles = dict.fromkeys(one.made_in for one in self.components if one.made_in is not None)
         found: dict[ModelingStyle, str] = {}
         for style in sorted(styles, key=lambda style: not style.published):
-            names = chain([style.name], (f"{style.name}/{k}" for k in count(2)))
-            found[style] = next(name for name in names if name not in found.values())
+            found[style] = free_name(style.name, found.values())
         return found
 
     def paths(self) -> tuple[str, ...]:

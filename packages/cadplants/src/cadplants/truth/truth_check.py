@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -106,15 +107,16 @@ class _Case:
         wide += [(x, y) for same in copies.values() for k, x in enumerate(same) for y in same[k + 1 :]]
         return {self.key(a, b): (a, b) for a, b in wide}
 
-    def devices(self) -> list[tuple[str, ...]]:
-        """The meshes of each device whose parameters are known."""
+    @cached_property
+    def devices(self) -> Mapping[str, tuple[str, ...]]:
+        """All meshes of the device that a mesh is of, by that mesh; of devices whose parameters are known."""
         rows = (self.truth.model_extra or {}).get("devices") or ()
-        return [tuple(mesh for mesh in row.get("meshes", ()) if mesh in self.index) for row in rows]
+        some = (tuple(mesh for mesh in row.get("meshes", ()) if mesh in self.index) for row in rows)
+        return {mesh: device for device in some for mesh in device}
 
     def devices_of(self, unit: TruthUnit) -> set[str]:
         """The meshes of the devices that have meshes of a unit."""
-        own = set(unit.meshes)
-        return {mesh for device in self.devices() if not own.isdisjoint(device) for mesh in device}
+        return {mesh for own in unit.meshes for mesh in self.devices.get(own, ())}
 
     def key(self, a: str, b: str) -> tuple[int, int]:
         one, other = self.index[a], self.index[b]
@@ -265,7 +267,7 @@ def _tubes(case: _Case) -> _Outcomes:
     """Pipes and elbows lie round the axis of their line; those of devices, and spools with their flanges, need not."""
     lines = {line.id: line for line in case.truth.lines or ()}
     slack = _ROUND + (case.truth.looseness or 0.0)
-    free = {*case.truth.hidden, *(mesh for device in case.devices() for mesh in device)}
+    free = {*case.truth.hidden, *case.devices}
     for row in case.truth.meshes:
         line = lines.get(row.line or "")
         if line is None or line.outer is None or row.name not in _ON_AXIS or row.mesh in free:
