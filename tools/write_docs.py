@@ -126,6 +126,7 @@ def inline() -> str:
     rows = [_row("waist", WAIST), _row("thicker", THICKER)]
     rows += [("base", "any straight piece between two joints", _odds(INLINE["base"]))]
     rows += [("stem", "a thin piece stands on it and leads nowhere", _odds(INLINE["stem"]))]
+    rows += [("operator", "a lever, a bonnet or the like sits on it and on no other line", _odds(INLINE["operator"]))]
     return "\n".join(table(("name", "what", "value: log-odds"), rows))
 
 

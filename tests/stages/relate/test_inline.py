@@ -14,7 +14,7 @@ from cadgraph.stages.relate.inline import INLINE, THICKER, WAIST, recover_inline
 from cadgraph.stages.relate.piping import Group
 from cadgraph.stages.relate.recover import LABELLED
 from piping import PIPE, VALVE, R, merged, ring, turned
-from sketch import VOCABULARY, Sketch, X
+from sketch import VOCABULARY, Sketch, X, block
 
 SAID = {(PIPE, "pipe"): 0.6, (VALVE, "valve"): 0.1}
 
@@ -142,6 +142,22 @@ def stemmed(thin=0.3, source="geometry", leads=False, stem_by="geometry"):
 def test_a_stem_that_leads_nowhere_makes_a_piece_of_line_a_valve():
     assert valves(stemmed()) == [(0, 3)]
     assert valves(between(cone((0, 0, 0), (0.2, 0, 0), R, R))) == []
+
+
+def levered(reaches=0.0, source="geometry"):
+    """A short cylinder between two flanged pipes, with a lever on it, the fourth part, that may rest on a pipe."""
+    sketch = between(cone((0, 0, 0), (0.2, 0, 0), R, R), source=source)
+    sketch.add(block((0.1 + reaches / 2, 0, R + 0.02), (0.04 + reaches, 0.02, 0.04)), VALVE, "lever", 0.9)
+    return sketch
+
+
+def test_pieces_of_a_valve_on_a_piece_of_line_make_it_one():
+    assert valves(levered()) == [(0, 3)]
+    assert valves(levered(source="author")) == [(3,)], "somebody says that it is a pipe"
+
+
+def test_pieces_of_a_valve_that_sit_on_a_pipe_as_well_say_nothing():
+    assert valves(levered(reaches=0.3)) == [(3,)]
 
 
 @pytest.mark.parametrize(("thin", "found"), [(0.65, [(0, 3)]), (0.75, [])])

@@ -122,6 +122,21 @@ def test_a_doubted_device_stays_one_but_may_be_another(name, likely, kind):
     assert found(around(0.24, "one", **said)) == kind
 
 
+def test_a_doubted_valve_at_the_end_of_a_line_stays_one():
+    likely = {NAMES["valve"]: 0.6, NAMES["gauge"]: 0.1}
+    assert found(around(0.24, "one", group=VALVE, name="valve", sure=0.7, likely=likely)) == "valve"
+
+
+@pytest.mark.parametrize(
+    ("sides", "name", "kind"),
+    [("aligned", "gauge face", "gauge"), ("aligned", "gauge stem", None), ("one", "gauge stem", "gauge")],
+)
+def test_what_a_gauge_is_screwed_into_with_a_stem_of_its_own_is_no_piece_of_it(sides, name, kind):
+    sketch = around(0.24, sides, likely={NAMES["gauge"]: 0.02})
+    sketch.add(block((0, 0.14, 0), (0.03, 0.04, 0.03)), GAUGE, name, likely={(GAUGE, name): 0.9})
+    assert found(sketch) == kind
+
+
 @pytest.mark.parametrize(("wheel", "kind"), [(True, "valve"), (False, None)])
 def test_what_touches_a_unit_that_no_line_leads_to_is_its_body(wheel, kind):
     sketch = around(0.24, "square", likely={NAMES["valve"]: 0.1})

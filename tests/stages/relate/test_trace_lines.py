@@ -121,8 +121,8 @@ def test_a_short_cylinder_at_the_end_of_a_pipe_is_a_piece_of_it_if_it_is_as_wide
     assert (0 in lines(unsure(radius=radius, n_pipes=1))) is found
 
 
-@pytest.mark.parametrize(("radius", "found"), [(1.3, True), (0.35, True), (0.25, False)])
-def test_between_two_pipes_a_short_cylinder_needs_to_be_as_wide_as_a_reducing_flange_allows(radius, found):
+@pytest.mark.parametrize(("radius", "found"), [(1.3, True), (1.5, False), (0.35, True), (0.25, False)])
+def test_between_two_pipes_a_short_cylinder_is_as_narrow_as_a_reducing_flange_or_as_wide_as_a_sleeve(radius, found):
     assert (0 in lines(unsure(radius=radius))) is found
 
 

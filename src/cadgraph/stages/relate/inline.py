@@ -27,9 +27,14 @@ THICKER = Curve((1.1, 1.2, 1.4), (0.0, 5.5, 6.5), "it is {:.2f} times as wide as
 """The radius of a straight piece between two flanges over that of the pipes beyond, in log-odds that it is a valve: no
 pipe is wider for the length of a valve. Labels hardly help here: a cylinder looks like a pipe."""
 
-INLINE: Mapping[str, float] = {"base": -2.0, "stem": 2.5}
-"""The log-odds that a straight piece in a line is a valve, and what a stem that leads nowhere adds."""
+INLINE: Mapping[str, float] = {"base": -2.0, "stem": 2.5, "operator": 3.0}
+"""The log-odds that a straight piece in a line is a valve, and what adds to them: a stem that leads nowhere, or pieces
+of a valve that sit on it alone."""
 
+_ON_IT: Mapping[str, str] = {
+    "stem": "a stem on it leads nowhere",
+    "operator": "pieces of a valve sit on it and on no other line",
+}
 # Fittings that are as thick or as narrow as valves: no width tells which a piece is, so that the labeler's word counts.
 _ALIKE = ("strainer", "expansion joint", "flange", "coupling", "union", "hose")
 _RIVAL = 0.25  # least probability, and more than of a valve, from which on something else may be meant (ours)
@@ -83,13 +88,13 @@ def recover_inline(piping: Piping, beliefs: Beliefs, likelihood: Curve) -> Pipin
         said = f"the labeler gives it {share:.0%}", float(likelihood(np.log(share)))
         other = float(others[list(piece.parts)].mean(axis=0).max())
         rival = None if other < max(_RIVAL, share) else float(likelihood(np.log(other))) - said[1]
-        if _judged(piece, True, said, rival).sure < _SURE:
+        if _judged(piece, tuple(_ON_IT), said, rival).sure < _SURE:
             continue
-        stems = _stems(piping, beliefs, piece)
-        found = _judged(piece, bool(stems), said, rival)
+        on_it = {"stem": _stems(piping, beliefs, piece), "operator": _operators(piping, piece)}
+        found = _judged(piece, [kind for kind, parts in on_it.items() if parts], said, rival)
         if found.sure < _SURE or not taken.isdisjoint(piece.parts):
             continue
-        parts = tuple(sorted({*piece.parts, *stems} - taken))
+        parts = tuple(sorted({*piece.parts}.union(*on_it.values()) - taken))
         taken.update(parts)
         groups.append(Group("valve", parts))
         recovered |= dict.fromkeys(parts, found)
@@ -104,20 +109,19 @@ def _rivals(piping: Piping, beliefs: Beliefs) -> Floats:
     return np.stack(shares, axis=1)
 
 
-def _judged(piece: _Piece, has_stem: bool, said: Term, rival: float | None) -> Recovered:
+def _judged(piece: _Piece, on_it: Sequence[str], said: Term, rival: float | None) -> Recovered:
     """How sure it is that a piece is a valve, by its shape and by what the labeler says of it, and why.
 
     Args:
         piece: the piece.
-        has_stem: whether a stem on it leads nowhere.
+        on_it: what stands on it, keys of ``INLINE``.
         said: what the labeler's word adds.
         rival: what its word for something else of such a shape adds beyond that, in log-odds; None where there is none.
     """
     terms = [("a straight piece of a line", INLINE["base"]), said]
     for curve, value in ((WAIST, piece.waist), (THICKER, piece.thicker)):
         terms += [(curve.says.format(value), float(curve(value)))] if float(curve(value)) else []
-    if has_stem:
-        terms.append(("a stem on it leads nowhere", INLINE["stem"]))
+    terms += [(_ON_IT[kind], INLINE[kind]) for kind in on_it]
     odds = float(np.exp(sum(odds for _, odds in terms)))
     against = 1 if rival is None else 1 + odds * float(np.exp(rival))
     return Recovered(odds / (against + odds), tell_terms(terms))
@@ -269,6 +273,25 @@ def _stems(piping: Piping, beliefs: Beliefs, piece: _Piece) -> set[int]:
     around = {other for own in piece.parts for other in piping.given.neighbors.get(own, ())} - set(piece.parts)
     stems = {part for part in around if beliefs.open[part] and _is_stem(piping, piece, part, thin)}
     return stems | {part for part in piece.parts if _has_stem(piping, piece, part, thin)}
+
+
+def _operators(piping: Piping, piece: _Piece) -> set[int]:
+    """Parts of valves that no line leads to and that sit on a piece and on no other line: a lever, a bonnet."""
+    on_it = {other for own in piece.parts for other in piping.given.neighbors.get(own, ())}
+    sitting = [
+        group
+        for group in piping.groups
+        if group.unit_type == "valve"
+        and not on_it.isdisjoint(group.parts)
+        and piping.mounted.keys().isdisjoint(group.parts)
+        and _lines_at(piping, group.parts) <= set(piece.parts)
+    ]
+    return {part for group in sitting for part in group.parts}
+
+
+def _lines_at(piping: Piping, parts: Collection[int]) -> set[int]:
+    """The parts with a line that some others touch."""
+    return {other for part in parts for other in piping.given.neighbors.get(part, ()) if other in piping.lines}
 
 
 def _is_stem(piping: Piping, piece: _Piece, part: int, thin: float) -> bool:

@@ -27,7 +27,7 @@ _NOTHING, _STEELWORK = "nothing", "steelwork"
 
 # How the ends of lines meet a body, in log-odds for each type.
 ARRANGEMENT: Mapping[str, Mapping[str, float]] = {
-    "one": {"valve": -3.0, "gauge": 1.5, "pump": -3.0, "tank": 1.0, "equipment": 0.0, FITTING: -9.0},
+    "one": {"valve": -1.0, "gauge": 1.5, "pump": -3.0, "tank": 1.0, "equipment": 0.0, FITTING: -9.0},
     "aligned": {"valve": 2.0, "gauge": 1.0, "pump": -1.5, "tank": -3.0, "equipment": -1.0, FITTING: 0.0},
     "square": {"valve": -0.5, "gauge": -3.0, "pump": 2.5, "tank": -0.5, "equipment": 0.0, FITTING: -1.0},
     "two": {"valve": -2.0, "gauge": -3.0, "pump": 0.0, "tank": 1.0, "equipment": 1.0, FITTING: -1.0},
@@ -194,7 +194,8 @@ def _least(piping: Piping, beliefs: Beliefs, body: Body) -> float:
     """How sure it must be what a body is, by how likely what labels make of it is."""
     if body.unit_type is None:
         return _SURE
-    said = float(beliefs.of_groups(_groups_of(piping, body.unit_type))[list(body.parts)].mean())
+    # Its own parts say so, not what only hangs together with them.
+    said = float(beliefs.of_groups(_groups_of(piping, body.unit_type))[list(body.parts)].max())
     return _OTHER if said >= _LIKELY else _SURE
 
 
@@ -229,10 +230,21 @@ def _further(piping: Piping, sight: _Sight, kind: str) -> Iterator[Term]:
         yield SLIM.says.format(sight.slim), odds if kind == FITTING else -odds
     if sight.closes and kind == FITTING:
         yield "it closes the end", LID
-    touched = _touched(piping, sight.body, kind)
+    touched = _owners(piping, sight, kind)
     if touched:
         on_line = any(part in sight.mounted for group in touched for part in group.parts)
         yield f"it touches a {kind}", _PIECE if on_line else _BODY
+
+
+def _owners(piping: Piping, sight: _Sight, unit_type: str) -> list[Group]:
+    """The groups of a type that a body touches and may be a piece of; a gauge with a stem of its own is screwed into
+    what more than one line ends at.
+    """
+    touched = _touched(piping, sight.body, unit_type)
+    if unit_type != "gauge" or sight.arrangement == "one":
+        return touched
+    names = piping.roles.names
+    return [group for group in touched if all(names[part] != "gauge stem" for part in group.parts)]
 
 
 def _is_lid(piping: Piping, body: Body, ends: Ends, rows: Sequence[int]) -> bool:

@@ -32,6 +32,8 @@ _Value = TypeVar("_Value")
 # A part that only its shape calls a pipe must face one of about its size: this ratio of radii, that of a reducing
 # flange; one that its label calls a device must face one of its own size.
 _RATIO, _OWN_RATIO = 0.3, 0.9
+# What may be a device and is wider than the pipes at both of its ends is a sleeve on them up to this ratio of radii.
+_SLEEVE = 0.7
 # A short cylinder of a pipe's own size is a piece of it where the labeler is less sure than this of the device.
 _SAME_RATIO, _UNSURE = 0.97, 0.9
 # What bends or branches between its mouths, all of its surface along that line, is a fitting where the labeler has no
@@ -420,15 +422,24 @@ def _facing_parts(
         if facing.corner:
             continue
         a, b = int(ends.part[facing.first]), int(ends.part[facing.second])
-        lesser, greater = sorted((float(ends.radius[facing.first]), float(ends.radius[facing.second])))
+        width = {a: float(ends.radius[facing.first]), b: float(ends.radius[facing.second])}
+        ratio = min(width.values()) / max(width.values())
         for part, other in ((a, b), (b, a)):
-            if part not in ratios or lesser >= ratios[part] * greater:
+            if ratio >= ratios.get(part, 0.0):
                 steps.setdefault(other, []).append(part)
-            elif lesser >= _RATIO * greater:
+            elif ratio >= _least_between(ratios[part], width[part] > width[other]):
                 weak.setdefault(part, []).append(other)
     for part, other in _branches(ends, lines, ratios, contacts, bridge):
         weak.setdefault(part, []).append(other)
     return steps, weak
+
+
+def _least_between(ratio: float, wider: bool) -> float:
+    """The least ratio of radii at which a part is a line for lying between two, by the one at which it continues one.
+
+    What may be a device is one where it is wider than a sleeve on both would be.
+    """
+    return _SLEEVE if wider and ratio != _BOTH_ENDS else _RATIO
 
 
 def _branches(
