@@ -297,6 +297,43 @@ def test_valves_of_several_parts_flange_to_flange_stay_two():
     assert [len(unit.parts) for unit in graph.units()] == [4, 4]
 
 
+def test_a_valve_between_two_others_is_one_of_three():
+    plant = Plant()
+    for k in range(3):
+        valve_pieces(plant, (1 + 0.178 * k, 0, 0))
+    plant.pipe((0, 0, 0), (0.911, 0, 0)).pipe((1.445, 0, 0), (2, 0, 0))
+    graph = plant.graph()
+    assert links(graph) == [("V-001", "V-002"), ("V-001", "open"), ("V-002", "V-003"), ("V-003", "open")]
+    assert [len(unit.parts) for unit in graph.units()] == [4, 4, 4]
+
+
+def bare_valve(plant, middle, length, name):
+    """A valve without an operator, in one mesh with its flanges."""
+    ends = [turned(shapes.tube(0.075, R, 0.016), (middle + s * (length / 2 - 0.008), 0, 0), (1, 0, 0)) for s in (-1, 1)]
+    body = merged(turned(shapes.tube(0.06, R, length), (middle, 0, 0), (1, 0, 0)), *ends)
+    return plant.add(body, VALVE, name)
+
+
+@pytest.mark.parametrize(("name", "units"), [("valve", 2), (None, 2), ("valve disc", 1)])
+def test_a_whole_valve_without_an_operator_at_another_one_is_a_valve(name, units):
+    plant = bare_valve(Plant(), 1.0, 0.24, name).add(valve_mesh((1.209, 0, 0)), VALVE, "valve")
+    plant.pipe((0, 0, 0), (0.88, 0, 0)).pipe((1.298, 0, 0), (2, 0, 0))
+    assert len(plant.graph().units()) == units
+
+
+@pytest.mark.parametrize("name", ["valve body", "valve"])
+def test_a_three_piece_valve_is_one(name):
+    plant = Plant()
+    for x, length, called in ((0.935, 0.048, name), (1.0, 0.082, "valve body"), (1.065, 0.048, name)):
+        plant.add(turned(shapes.tube(0.06, R, length), (x, 0, 0), (1, 0, 0)), VALVE, called)
+    plant.add(turned(shapes.cylinder(0.012, 0.08), (1.0, 0, 0.1), (0, 0, 1)), VALVE, "valve stem")
+    plant.add(shapes.box((0.2, 0.03, 0.01), (1.06, 0, 0.145)), VALVE, "lever")
+    plant.pipe((0, 0, 0), (0.911, 0, 0)).pipe((1.089, 0, 0), (2, 0, 0))
+    graph = plant.graph()
+    assert links(graph) == [("V-001", "open"), ("V-001", "open")]
+    assert [len(unit.parts) for unit in graph.units()] == [5]
+
+
 @pytest.mark.parametrize("label", [(FASTENER, "clamp"), (PIPE, "coupling"), (STEEL, "post"), (None, None)])
 def test_a_mislabelled_bonnet_does_not_break_a_valve_in_two(label):
     plant = Plant()

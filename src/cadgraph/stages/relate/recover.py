@@ -7,11 +7,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from cadgraph.model.scene import Floats
 from cadgraph.stages.relate.attach import flat_contacts
 from cadgraph.stages.relate.belief import Beliefs, beliefs_of
 from cadgraph.stages.relate.body import Arrangement, Body, arrangement_of, find_bodies, other_groups
 from cadgraph.stages.relate.evidence import Curve, Term, tell_terms
+from cadgraph.stages.relate.flanged import heads_for
 from cadgraph.stages.relate.foot import take_feet
 from cadgraph.stages.relate.inline import pipe_radius, recover_inline
 from cadgraph.stages.relate.joint import Ends
@@ -72,7 +72,6 @@ _LEAST = 1e-3  # no probability counts for less
 _MOSTLY_NAMED = 0.5  # below this share of parts that only the labeler has named what has no name is no device
 _STANDING = 0.5  # log-odds that what has the ends of lines at it carries them
 _WIDEST_GAUGE = 0.4  # m
-_ON_AXIS, _SQUARE_ON = 0.35, 0.95  # of a flange that a line heads for: share of its radius, cosine
 _FLAT, _AS_WIDE = 0.6, 0.85  # a lid's thickness as share of its radius, and its radius as share of the end's
 # Names of connectors that two ends on one axis of a body contradict: each would have a line of its own there.
 _BENT = frozenset({"cross", "tee", "elbow", "pipe cap", "blind flange"})
@@ -160,17 +159,8 @@ def _flanged_to(piping: Piping, body: Body, ends: Ends, row: int) -> Iterator[st
     owner = {part: group.unit_type for group in piping.groups for part in group.parts if part in body.near}
     pairs = [(min(a, b), max(a, b)) for a in body.parts for b in owner]
     for (a, b), (middle, normal) in flat_contacts(given.parts, given.contacts, pairs, given.config.cluster.eps).items():
-        if _heads_for(ends, row, middle, normal):
+        if heads_for(ends, row, middle, normal):
             yield owner.get(a) or owner[b]
-
-
-def _heads_for(ends: Ends, row: int, middle: Floats, normal: Floats) -> bool:
-    """Whether an end looks at a flat face, straight on."""
-    axis, offset = ends.direction[row], middle - ends.point[row]
-    ahead = float(offset @ axis)
-    aside = float(np.linalg.norm(offset - ahead * axis))
-    square = abs(float(normal @ axis)) >= _SQUARE_ON
-    return ahead > 0 and aside <= _ON_AXIS * float(ends.radius[row]) and square
 
 
 def _type_of(piping: Piping, beliefs: Beliefs, sight: _Sight) -> tuple[str, Recovered]:

@@ -13,6 +13,7 @@ from cadgraph.geometry.components import connected_sets
 from cadgraph.model.parts import Parts
 from cadgraph.model.vocabulary import FASTENERS
 from cadgraph.stages.relate.attach import Attachments, flat_contacts
+from cadgraph.stages.relate.flanged import bodies_between
 from cadgraph.stages.relate.piping import Group, Piping, RelateInput
 from cadgraph.stages.relate.role import Roles
 
@@ -21,6 +22,9 @@ __all__ = ["connected_groups", "is_loose_operator", "mend_units", "split_groups"
 # A body stands out from the line's axis this many times farther on one side than on the other where it carries its own
 # operator: one mesh for a whole valve.
 _LOPSIDED = 1.5
+# What no name calls a piece of a device is a whole one from so many pipe diameters on: the caps of a three-piece valve
+# are shorter.
+_WHOLE = 1.2
 _FASTENERS = FASTENERS | {"gasket"}
 _OPERATORS = frozenset(
     {"valve stem", "handwheel", "lever", "yoke", "gland", "gearbox", "actuator", "position indicator"}
@@ -295,7 +299,7 @@ def split_groups(piping: Piping, groups: Sequence[Group]) -> list[Group]:
     outcome = []
     for group in groups:
         bodies = [part for part in group.parts if part in mounts]
-        cores = _cores(piping, group, bodies, mounts) if group.unit_type in _SPLIT and len(bodies) > 1 else []
+        cores = _cores(piping, group, bodies, mounts) if group.unit_type in _SPLIT and bodies else []
         outcome += _divide(piping, group, cores) if len(cores) > 1 else [group]
     return sorted(outcome, key=lambda group: group.parts)
 
@@ -311,17 +315,35 @@ def _cores(piping: Piping, group: Group, bodies: Sequence[int], mounts: Mapping[
     """
     given, found = piping.given, piping.joints
     pairs = _pairs_within(group.parts, given.neighbors)
-    between = [(a, b) for a, b in pairs if a in bodies and b in bodies]
-    flanged = flat_contacts(given.parts, given.contacts, between, given.config.cluster.eps)
-    holders = _holders(given.parts, pairs, mounts, found)
+    beside = _pairs_beyond(group.parts, given.neighbors, piping.members)
+    if len({part for pair in beside for part in pair}.intersection(group.parts).union(bodies)) < 2:
+        return []
+    others = {part for pair in beside for part in pair}.difference(group.parts)
+    flat = flat_contacts(given.parts, given.contacts, [*pairs, *beside], given.config.cluster.eps)
+    own = {body: mounts[body] for body in bodies}
+    rows = {**own, **{body: [row] for body, row in bodies_between(found.ends, own, flat, others).items()}}
+    flanged = [pair for pair in flat if others.union(rows).issuperset(pair)]
+    holders = _holders(given.parts, pairs, rows, found)
 
     def is_core(body: int) -> bool:
-        n_open = len(mounts[body]) + sum(body in pair for pair in flanged)
-        alone = body in holders or len(mounts[body]) >= 2
-        return n_open >= 2 and (alone or _stands_out(given.parts, body, mounts[body], found))
+        at = mounts.get(body, ())
+        n_open = len(at) + sum(body in pair for pair in flanged)
+        alone = body in holders or len(at) >= 2 or _is_whole(piping, body, rows[body][0])
+        return n_open >= 2 and (alone or _stands_out(given.parts, body, rows[body], found))
 
-    cores = [body for body in bodies if is_core(body)]
+    cores = [body for body in sorted(rows) if is_core(body)]
     return cores if cores or group.unit_type != "gauge" else _feet(group, bodies, holders)
+
+
+def _is_whole(piping: Piping, body: int, row: int) -> bool:
+    """Whether a body is not called a piece of a device, and is longer along its line than a piece of one is."""
+    group = piping.roles.groups[body]
+    if group is None or piping.roles.names[body] not in (None, piping.given.vocabulary.groups[group].names[0]):
+        return False
+    ends = piping.joints.ends
+    vertices, _ = piping.given.parts.scene.mesh(body)
+    along = float(np.ptp(vertices @ ends.direction[row])) if len(vertices) else 0.0
+    return along >= _WHOLE * 2 * float(ends.radius[row])
 
 
 def _feet(group: Group, bodies: Sequence[int], holders: Collection[int]) -> list[int]:
@@ -333,6 +355,14 @@ def _pairs_within(parts: Sequence[int], near: Mapping[int, Sequence[int]]) -> li
     """The pairs of some parts that are near each other, first < second."""
     inside = set(parts)
     return [(a, b) for a in parts for b in near.get(a, ()) if a < b and b in inside]
+
+
+def _pairs_beyond(
+    parts: Sequence[int], near: Mapping[int, Sequence[int]], members: Collection[int]
+) -> list[tuple[int, int]]:
+    """The pairs of one of some parts and one of another unit that are near each other, first < second."""
+    inside = set(parts)
+    return [(min(a, b), max(a, b)) for a in parts for b in near.get(a, ()) if b in members and b not in inside]
 
 
 def _holders(
