@@ -32,12 +32,13 @@ from cadgraph.stages.relate.relabel import relabel_parts
 from cadgraph.stages.relate.role import Roles, find_roles
 from cadgraph.stages.relate.run import make_network
 from cadgraph.stages.relate.shortfall import find_shortfalls
+from cadgraph.stages.relate.split import split_groups
 from cadgraph.stages.relate.stated import report_unplaced
 from cadgraph.stages.relate.stated_names import name_as_stated, tag_as_stated
 from cadgraph.stages.relate.stub import drop_stubs
 from cadgraph.stages.relate.tag import tag_units
 from cadgraph.stages.relate.trace import drop_shapeless, trace_lines
-from cadgraph.stages.relate.unit import is_loose_operator, mend_units, split_groups
+from cadgraph.stages.relate.unit import is_loose_operator, mend_units
 
 __all__ = ["Connected", "connect_units"]
 

@@ -1,0 +1,217 @@
+"""Groups of parts cut where two devices meet: each body with an operator of its own, or with two open ends."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from cadgraph.model.parts import Parts
+from cadgraph.stages.relate.attach import Attachments, flat_contacts
+from cadgraph.stages.relate.flanged import bodies_between
+from cadgraph.stages.relate.piping import Group, Piping
+
+__all__ = ["split_groups"]
+
+# A body stands out from the line's axis this many times farther on one side than on the other where it carries its own
+# operator: one mesh for a whole valve.
+_LOPSIDED = 1.5
+# What no name calls a piece of a device is a whole one from so many pipe diameters on: the caps of a three-piece valve
+# are shorter.
+_WHOLE = 1.2
+_SPLIT = frozenset({"valve", "pump", "gauge"})
+
+
+def split_groups(piping: Piping, groups: Sequence[Group]) -> list[Group]:
+    """Cuts groups that hold several devices: each body with an operator of its own, or with two open ends.
+
+    Args:
+        piping: what joins what.
+        groups: connected parts.
+    """
+    mounts: dict[int, list[int]] = {}
+    for mount in piping.joints.mounts:
+        mounts.setdefault(mount.part, []).append(mount.row)
+    outcome = []
+    for group in groups:
+        own = {part: mounts[part] for part in group.parts if part in mounts}
+        cores = _cores(piping, group, own) if group.unit_type in _SPLIT and _may_be_several(piping, group, own) else []
+        outcome += _divide(piping, group, cores) if len(cores) > 1 else [group]
+    return sorted(outcome, key=lambda group: group.parts)
+
+
+def _may_be_several(piping: Piping, group: Group, own: Mapping[int, Sequence[int]]) -> bool:
+    """Whether a line ends at a group, and at least two of its parts are at a line's end or at another unit."""
+    return bool(own) and len(own.keys() | {a for a, _ in _beyond(piping, group)}) > 1
+
+
+@dataclass(frozen=True)
+class _Bodies:
+    """The parts of a group that stand in a line.
+
+    Args:
+        own: rows of the ends of lines at each part that has any.
+        rows: of each body an end on its axis or more, its own where it has any.
+        flanged: how many bodies and parts of other units each is flanged to.
+        holders: bodies that alone carry an operator.
+    """
+
+    own: Mapping[int, Sequence[int]]
+    rows: Mapping[int, Sequence[int]]
+    flanged: Mapping[int, int]
+    holders: Collection[int]
+
+    def count_open(self, body: int) -> int:
+        """How many lines and others a body leads to."""
+        return len(self.own.get(body, ())) + self.flanged.get(body, 0)
+
+
+def _cores(piping: Piping, group: Group, own: Mapping[int, Sequence[int]]) -> list[int]:
+    """The bodies that are devices of their own.
+
+    Args:
+        piping: what joins what.
+        group: connected parts.
+        own: rows of the ends of lines at each of these parts.
+    """
+    bodies = _bodies_of(piping, group, own)
+    cores = [body for body in sorted(bodies.rows) if _is_core(piping, bodies, body)]
+    return cores if cores or group.unit_type != "gauge" else _feet(group, own, bodies.holders)
+
+
+def _bodies_of(piping: Piping, group: Group, own: Mapping[int, Sequence[int]]) -> _Bodies:
+    """What stands in a line: where one ends, and what is flanged to it between."""
+    given, found = piping.given, piping.joints
+    pairs, beyond = _pairs_within(group.parts, given.neighbors), _beyond(piping, group)
+    others = {b for _, b in beyond}
+    near = [*pairs, *((min(pair), max(pair)) for pair in beyond)]
+    flat = flat_contacts(given.parts, given.contacts, near, given.config.cluster.eps)
+    rows = {**{part: [row] for part, row in bodies_between(found.ends, own, flat, others).items()}, **own}
+    flanged = Counter(part for pair in flat if others.union(rows).issuperset(pair) for part in pair)
+    return _Bodies(own, rows, flanged, _holders(given.parts, pairs, rows, found))
+
+
+def _is_core(piping: Piping, bodies: _Bodies, body: int) -> bool:
+    """Whether a body leads to two others at least, and is a device of its own."""
+    if bodies.count_open(body) < 2:
+        return False
+    passes = len(bodies.own.get(body, ())) >= 2
+    return passes or body in bodies.holders or _is_complete(piping, body, bodies.rows[body])
+
+
+def _is_complete(piping: Piping, body: int, rows: Sequence[int]) -> bool:
+    """Whether a body by itself is a whole device in one mesh."""
+    return _is_whole(piping, body, rows[0]) or _stands_out(piping.given.parts, body, rows, piping.joints)
+
+
+def _is_whole(piping: Piping, body: int, row: int) -> bool:
+    """Whether a body is not called a piece of a device, and is longer along its line than a piece of one is."""
+    group = piping.roles.groups[body]
+    if group is None or piping.roles.names[body] not in (None, piping.given.vocabulary.groups[group].names[0]):
+        return False
+    ends = piping.joints.ends
+    vertices, _ = piping.given.parts.scene.mesh(body)
+    along = float(np.ptp(vertices @ ends.direction[row])) if len(vertices) else 0.0
+    return along >= _WHOLE * 2 * float(ends.radius[row])
+
+
+def _feet(group: Group, bodies: Collection[int], holders: Collection[int]) -> list[int]:
+    """The feet of gauges: each has one, so that two feet are two gauges."""
+    return [body for body in bodies if body in holders or len(group.parts) == len(bodies)]
+
+
+def _pairs_within(parts: Sequence[int], near: Mapping[int, Sequence[int]]) -> list[tuple[int, int]]:
+    """The pairs of some parts that are near each other, first < second."""
+    inside = set(parts)
+    return [(a, b) for a in parts for b in near.get(a, ()) if a < b and b in inside]
+
+
+def _beyond(piping: Piping, group: Group) -> list[tuple[int, int]]:
+    """The parts of a group and those of other units that are near each other, its own first."""
+    near, members, inside = piping.given.neighbors, piping.members, set(group.parts)
+    return [(a, b) for a in group.parts for b in near.get(a, ()) if b in members and b not in inside]
+
+
+def _holders(
+    parts: Parts, pairs: Sequence[tuple[int, int]], mounts: Mapping[int, Sequence[int]], found: Attachments
+) -> set[int]:
+    """Bodies with an operator of their own: a part on that body alone that stands out from it.
+
+    A lever that rests on one half of a body and turns the stem in the other half is neither's own.
+    """
+    return {
+        body
+        for part, body in _only_bodies_under(pairs, mounts)
+        if _reach(parts, part, mounts[body], found) > _reach(parts, body, mounts[body], found)
+    }
+
+
+def _only_bodies_under(pairs: Sequence[tuple[int, int]], bodies: Collection[int]) -> list[tuple[int, int]]:
+    """The parts that touch one body and no part that touches but others, each with that body."""
+    on = _bodies_under(pairs, bodies)
+    shared = {part for a, b in pairs if a in on and b in on and on[a].isdisjoint(on[b]) for part in (a, b)}
+    return [(part, next(iter(own))) for part, own in on.items() if len(own) == 1 and part not in shared]
+
+
+def _bodies_under(pairs: Sequence[tuple[int, int]], bodies: Collection[int]) -> dict[int, set[int]]:
+    """The bodies that each other part touches, of those that touch any."""
+    on: dict[int, set[int]] = {}
+    for a, b in pairs:
+        for part, body in ((a, b), (b, a)):
+            if part not in bodies and body in bodies:
+                on.setdefault(part, set()).add(body)
+    return on
+
+
+def _reach(parts: Parts, part: int, rows: Sequence[int], found: Attachments) -> float:
+    """The greatest distance of a part from the axis of the line at an end [m]."""
+    vertices, _ = parts.scene.mesh(part)
+    offset = vertices - found.ends.point[rows[0]]
+    axis = found.ends.direction[rows[0]]
+    return float(np.linalg.norm(offset - (offset @ axis)[:, None] * axis, axis=1).max(initial=0.0))
+
+
+def _stands_out(parts: Parts, body: int, rows: Sequence[int], found: Attachments) -> bool:
+    """Whether a body reaches much farther to one side of its line than to the other."""
+    point, axis = found.ends.point[rows[0]], found.ends.direction[rows[0]]
+    vertices, _ = parts.scene.mesh(body)
+    offset = vertices - point
+    across = offset - (offset @ axis)[:, None] * axis
+    reach = np.linalg.norm(across, axis=1)
+    if not len(reach) or not reach.max() > 0:
+        return False
+    far = across[int(np.argmax(reach))] / reach.max()
+    return bool(reach.max() > _LOPSIDED * max(float(-(across @ far).min()), float(found.ends.radius[rows[0]])))
+
+
+def _divide(piping: Piping, group: Group, cores: Sequence[int]) -> list[Group]:
+    """Gives each part to the core that is the fewest contacts away; of two the one that is nearer."""
+    centers = piping.given.parts.properties.obb_center
+    inside = set(group.parts)
+    steps = {core: _steps(core, inside, piping.given.neighbors, set(cores) - {core}) for core in cores}
+    members: dict[int, list[int]] = {core: [] for core in cores}
+    for part in group.parts:
+        ranked = sorted(
+            (steps[core].get(part, len(inside)), float(np.linalg.norm(centers[part] - centers[core])), core)
+            for core in cores
+        )
+        members[ranked[0][2]].append(part)
+    return [replace(group, parts=tuple(sorted(found))) for found in members.values()]
+
+
+def _steps(
+    core: int, inside: Collection[int], near: Mapping[int, Sequence[int]], shut: Collection[int]
+) -> dict[int, int]:
+    """Contacts from a core to each part, not through other cores."""
+    steps, front = {core: 0}, [core]
+    while front:
+        following = []
+        for here in front:
+            for there in near.get(here, ()):
+                if there in inside and there not in steps and there not in shut:
+                    steps[there] = steps[here] + 1
+                    following.append(there)
+        front = following
+    return steps
