@@ -14,7 +14,7 @@ from cadplants.solids.primitives import box, cylinder
 from cadplants.solids.transforms import at, spun
 from cadplants.styles.modeling_style import ModelingStyle
 
-__all__ = ["Collar", "Ends", "Look", "Rim", "skin"]
+__all__ = ["Collar", "Ends", "Ferrule", "Look", "Rim", "skin"]
 
 Ends = tuple[bool, bool]
 """Whether the first and the last end of a piece has a rim."""
@@ -131,6 +131,21 @@ class Collar(Rim):
         if self.form == "coned":
             return [(0.0, wide), (t - step, wide), (t, r)]
         return [(0.0, wide), (t, wide), (t, r)]
+
+
+class Ferrule(Rim):
+    """A thin rim of a hygienic piece, its back sloping to the tube."""
+
+    form: str = given("sloped", "how it is made")
+    wide: float = between(1.3, 1.9, "radius / of the pipe")
+    thick: float = between(0.02, 0.12, "(thickness - 2 mm) / radius of the pipe")
+    edge: float = between(0.2, 0.9, "how far its back slopes / its height")
+    bolts: int = given(0, "heads of bolts on its back")
+
+    def outline(self, r: float) -> Outline:
+        """Likewise."""
+        t, wide = self.plate(r), self.wide * r
+        return [(0.0, wide), (t, wide), (t + self.edge * (wide - r), r)]
 
 
 class Look(Params):

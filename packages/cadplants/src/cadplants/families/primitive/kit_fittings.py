@@ -11,8 +11,9 @@ from cadgraph.model.scene import Floats
 from cadplants.builder.device import Device, families_of
 from cadplants.builder.params import Params, among, between, chance, each, given, nested, several, whole
 from cadplants.builder.table import Table
+from cadplants.families.piping.hygienic import Band
 from cadplants.families.piping.shape import crossing
-from cadplants.families.primitive.kit import Collar, Ends, Look
+from cadplants.families.primitive.kit import Collar, Ends, Ferrule, Look
 from cadplants.families.primitive.shape import disc, lying
 from cadplants.model.family import Family, Model
 from cadplants.model.standards import PIPES, SIZES, smaller
@@ -26,6 +27,7 @@ _QUARTERS, _ROLL = (0.0, 0.5, 1.0, 1.5), "how it is turned about the pipe / half
 _LEAN = "direction of its branches from the line / half a turn"
 _SOCKETS = tuple(size for size in SIZES if size <= 200)
 _BACK = spun("z", np.pi)
+_HYGIENIC = tuple(size for size in SIZES if size <= 150)
 _LONGEST = 3.0  # m; of a spool
 
 
@@ -68,6 +70,9 @@ class _Kit(Device, place="inline", group="Pipe assembly", grain="fitting", weigh
         t.add("pipe", self.look.straight(t.style, r, length, ends))
         return t.at(length)
 
+    def joined(self, t: Table, r: float) -> None:
+        """Puts down what holds two pieces together that meet here."""
+
 
 class _Row(_Kit):
     """A fitting in a line, at times between two spools of its kit."""
@@ -76,9 +81,13 @@ class _Row(_Kit):
 
     def build(self, t: Table) -> Model:
         r, start = t.pipe.radius, np.linalg.inv(t.frame)
-        t = self.spool(t, r, self.lead, (False, self.beside)) if self.lead else t
+        if self.lead:
+            t = self.spool(t, r, self.lead, (False, self.beside))
+            self.joined(t, r)
         t = self.fitted(t, r)
-        t = self.spool(t, r, self.lead, (self.beside, False)) if self.lead else t
+        if self.lead:
+            self.joined(t, r)
+            t = self.spool(t, r, self.lead, (self.beside, False))
         return t.model(round(float((start @ t.frame)[0, 3]), 9), "welded", split=True)
 
     def fitted(self, t: Table, r: float) -> Table:
@@ -117,8 +126,11 @@ class Loop(_Row, name="elbow/loop of a kit", label="elbow", bundle="elbow", weig
         t = t.spun("x", self.roll * np.pi)
         between_them = (0.0 if self.close else self.slant, self.wide, 0.0 if self.close else self.slant)
         for k, back in enumerate((False, True, True, False)):
+            if k:
+                self.joined(t, r)
             if k and between_them[k - 1]:
                 t = self.spool(t, r, between_them[k - 1], (self.beside, self.beside))
+                self.joined(t, r)
             t = self.bend.put(t, self.look, r, self.own, back)
         return t.spun("x", -self.roll * np.pi)
 
@@ -148,8 +160,11 @@ class Turn(_Kit, name="elbow/turn of a kit", place="end", label="elbow", bundle=
             # Bends that follow each other turn up and down the same way or aside, never back into the line.
             t = bend.put(t.spun("x", (roll if k == 0 else 0.5 * roll) * np.pi), self.look, r, self.own)
             last = k == self.count - 1
+            self.joined(t, r)
             if last or not self.close:
                 t = self.spool(t, r, min(long, 8.0), (self.beside, self.end != "open" if last else self.beside))
+                if not last or self.end == "lid":
+                    self.joined(t, r)
         if self.end == "lid":
             rim = self.look.rim
             lid = disc(rim.wide * r, 0.0, rim.plate(r), t.style)
@@ -214,6 +229,8 @@ class _Branched(_Row):
 
     def _further(self, t: Table, r: float) -> None:
         """What is on a branch of a radius [m]."""
+        if self.end != "open":
+            self.joined(t, r)
         if self.end == "spool":
             self.spool(t, r, self.far, (self.beside, True))
         elif self.end == "lid":
@@ -271,7 +288,10 @@ class Taper(_Row, name="reducer/pieces of a kit", label="reducer", bundle="reduc
         drop = r - small if self.flat else 0.0
         solid = look.tapered(t.style, (r, small), length, drop, (first, last))
         t.add("reducer", solid)
-        t = self.spool(t.at(length, 0, -drop), small, self.far, (self.beside, self.beside))
+        t = t.at(length, 0, -drop)
+        self.joined(t, small)
+        t = self.spool(t, small, self.far, (self.beside, self.beside))
+        self.joined(t, small)
         t.at(length).moved(_BACK).add("reducer", solid)
         return t.at(length, 0, drop)
 
@@ -294,6 +314,8 @@ class Spools(_Kit, name="pipe/spools of a kit", label="pipe", bundle="pipe", wei
     def build(self, t: Table) -> Model:
         begin = t
         for k, long in enumerate(self.lengths):
+            if k:
+                self.joined(t, t.pipe.radius)
             outer = self.ends == "outer"
             first = self.ends in ("both", "first") or (outer and k == 0)
             last = self.ends in ("both", "last") or (outer and k == self.count - 1)
@@ -364,7 +386,52 @@ class Stub(_Kit, name="pipe/stub of a kit", place="end", label="pipe", bundle="p
         return t.model()
 
 
+# --- with clamps ---
+
+
+class _Ferruled(Look):
+    """Hygienic pieces with a thin rim at their ends."""
+
+    rim: Ferrule = nested(Ferrule, "ferrules")
+
+
+class _Clamped(_Kit, sizes=_HYGIENIC):
+    """Pieces with ferrules that clamps hold together."""
+
+    look: Look = nested(_Ferruled, "how its pieces are drawn")
+    rims: str = given("both", "what has rims")
+    single: bool = given(False, "a fitting has a rim at its first end only")
+    band: Band = nested(Band, "its clamps")
+    clamped: bool = chance(0.9, "clamps hold its pieces")
+
+    def joined(self, t: Table, r: float) -> None:
+        """Puts down a clamp."""
+        if self.clamped:
+            rim = self.look.rim
+            self.band.build(t, 0.0, rim.wide * r, 2 * rim.plate(r), r, self.look.sides)
+
+
+class ClampedTurn(_Clamped, Turn, name="elbow/clamped turn", weight=1.2):
+    """One to three hygienic bends with ferrules in one mesh and clamps between them, on a pipe's end."""
+
+
+class ClampedTee(_Clamped, KitTee, name="tee/clamped", weight=1.2):
+    """A hygienic tee with ferrules in one mesh, and clamps."""
+
+    lead: float = among((0.7, 1.5, 3.0), "length of the spool at either end / diameter")
+
+
+class ClampedTaper(_Clamped, Taper, name="reducer/clamped", sizes=_HYGIENIC[2:], weight=0.8):
+    """A hygienic reducer with ferrules, a narrow spool and a reducer back, with clamps."""
+
+
+class ClampedSpools(_Clamped, Spools, name="pipe/clamped spools", weight=1.2):
+    """One to four hygienic pieces of tube with ferrules in one mesh, and clamps where they meet."""
+
+    ends: str = given("both", "which ends of a piece have flanges")
+
+
 KIT_FITTINGS: tuple[Family, ...] = families_of(
     Loop, CollaredLoop, Turn, CollaredTurn, KitTee, CollaredTee, KitLateral, KitCross, CollaredCross, Taper,
-    CollaredTaper, Spools, Sockets, Pieces, Stub,
+    CollaredTaper, Spools, Sockets, Pieces, Stub, ClampedTurn, ClampedTee, ClampedTaper, ClampedSpools,
 )  # fmt: skip
