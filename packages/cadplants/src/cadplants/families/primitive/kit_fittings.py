@@ -28,7 +28,7 @@ _LEAN = "direction of its branches from the line / half a turn"
 _SOCKETS = tuple(size for size in SIZES if size <= 200)
 _BACK = spun("z", np.pi)
 _HYGIENIC = tuple(size for size in SIZES if size <= 150)
-_LONGEST = 3.0  # m; of a spool
+_LONGEST, _ASIDE = 3.0, 0.8  # m; of a spool, of one that leads away from the line
 
 
 def _stretch(rng: np.random.Generator, *_: Any) -> float:
@@ -64,9 +64,9 @@ class _Kit(Device, place="inline", group="Pipe assembly", grain="fitting", weigh
         """Whether the ends of spools that meet fittings have rims."""
         return self.rims != "fittings"
 
-    def spool(self, t: Table, r: float, stretch: float, ends: Ends) -> Table:
-        """A spool of a length / diameter; the table behind it."""
-        length = max(min(stretch * 2 * r, _LONGEST), self.look.least(r, ends))
+    def spool(self, t: Table, r: float, stretch: float, ends: Ends, most: float = _LONGEST) -> Table:
+        """A spool of a length / diameter, not longer than may be [m]; the table behind it."""
+        length = max(min(stretch * 2 * r, most), self.look.least(r, ends))
         t.add("pipe", self.look.straight(t.style, r, length, ends))
         return t.at(length)
 
@@ -129,7 +129,7 @@ class Loop(_Row, name="elbow/loop of a kit", label="elbow", bundle="elbow", weig
             if k:
                 self.joined(t, r)
             if k and between_them[k - 1]:
-                t = self.spool(t, r, between_them[k - 1], (self.beside, self.beside))
+                t = self.spool(t, r, between_them[k - 1], (self.beside, self.beside), _LONGEST if k == 2 else _ASIDE)
                 self.joined(t, r)
             t = self.bend.put(t, self.look, r, self.own, back)
         return t.spun("x", -self.roll * np.pi)
@@ -157,8 +157,8 @@ class Turn(_Kit, name="elbow/turn of a kit", place="end", label="elbow", bundle=
     def build(self, t: Table) -> Model:
         r = t.pipe.radius
         for k, (bend, roll, long) in enumerate(zip(self.bends, self.rolls, self.spools, strict=True)):
-            # Bends that follow each other turn up and down the same way or aside, never back into the line.
-            t = bend.put(t.spun("x", (roll if k == 0 else 0.5 * roll) * np.pi), self.look, r, self.own)
+            # None goes on the way of the one before it, which would lead back into the line.
+            t = bend.put(t.spun("x", (max(roll, 0.5) if k else roll) * np.pi), self.look, r, self.own)
             last = k == self.count - 1
             self.joined(t, r)
             if last or not self.close:
@@ -232,7 +232,7 @@ class _Branched(_Row):
         if self.end != "open":
             self.joined(t, r)
         if self.end == "spool":
-            self.spool(t, r, self.far, (self.beside, True))
+            self.spool(t, r, self.far, (self.beside, True), _ASIDE)
         elif self.end == "lid":
             rim = self.look.rim
             t.add("blind flange", lying(disc(rim.wide * r, 0.0, rim.plate(r), t.style)), of="flange")
