@@ -142,7 +142,7 @@ class CollaredLoop(Loop, name="elbow/loop with collars", weight=1.2, sizes=_SOCK
     rims: str = given("fittings", "what has rims")
 
 
-class Turn(_Kit, name="elbow/turn of a kit", place="end", label="elbow", bundle="elbow", weight=3):
+class Turn(_Kit, name="elbow/turn of a kit", place="end", label="elbow", bundle="elbow", weight=1.5):
     """One to three bends of a kit with spools between them, on a pipe's end."""
 
     count: int = whole(1, 3, "bends")
@@ -172,7 +172,7 @@ class Turn(_Kit, name="elbow/turn of a kit", place="end", label="elbow", bundle=
         return t.model()
 
 
-class CollaredTurn(Turn, name="elbow/turn with collars", weight=2, sizes=_SOCKETS):
+class CollaredTurn(Turn, name="elbow/turn with collars", weight=1.0, sizes=_SOCKETS):
     """One to three bends with thick sockets at their ends on a pipe's end."""
 
     look: Look = nested(_Collared, "how its pieces are drawn")
@@ -369,7 +369,7 @@ class Pieces(
         return t.model(round(x, 9), "welded", split=True)
 
 
-class Stub(_Kit, name="pipe/stub of a kit", place="end", label="pipe", bundle="pipe", weight=2):
+class Stub(_Kit, name="pipe/stub of a kit", place="end", label="pipe", bundle="pipe", weight=1.2):
     """A piece of pipe on a pipe's end with a flange, a lid or a blank in the same mesh at its end, or just open."""
 
     rims: str = given("both", "what has rims")
@@ -411,7 +411,7 @@ class _Clamped(_Kit, sizes=_HYGIENIC):
             self.band.build(t, 0.0, rim.wide * r, 2 * rim.plate(r), r, self.look.sides)
 
 
-class ClampedTurn(_Clamped, Turn, name="elbow/clamped turn", weight=1.2):
+class ClampedTurn(_Clamped, Turn, name="elbow/clamped turn", weight=0.7):
     """One to three hygienic bends with ferrules in one mesh and clamps between them, on a pipe's end."""
 
 
