@@ -9,6 +9,7 @@ from cadplants.families.valves.heating import HEATING
 from cadplants.families.valves.lid import LIDDED
 from cadplants.families.valves.regulate import REGULATORS
 from cadplants.families.valves.relief import RELIEFS
+from cadplants.families.valves.service import SERVICE
 from cadplants.families.valves.station import STATIONS
 from cadplants.families.valves.tap import TAPS
 from cadplants.families.valves.vent import VENTS
@@ -27,4 +28,5 @@ PROTECTING: tuple[Family, ...] = (
     *HEATING,
     *LIDDED,
     *TAPS,
+    *SERVICE,
 )
