@@ -212,6 +212,12 @@ class Geared(_Kit, name="valve/disc with gearbox", sizes=sizes_between(40, 400),
         return [Piece("gearbox", case), Piece("valve stem", [shaft]), Piece("handwheel", wheel, turning)]
 
 
+def _lids(form: str) -> tuple[str, ...]:
+    """The lids that a body of a form may have: one that doesn't swell is a piece of pipe without."""
+    lids = ("disc", "disc", "dome", "square", "cap")
+    return lids if form in ("waist", "straight") else (*lids, "none")
+
+
 class FlangedLid(_Flanged, name="check valve/flanged with lid", weight=3):
     """A swing or lift check valve: a flanged body that swells, a lid on it, nothing that turns it."""
 
@@ -219,7 +225,7 @@ class FlangedLid(_Flanged, name="check valve/flanged with lid", weight=3):
     rise: float = between(1.0, 1.6, "height of the lid's seat / radius of the body")
     wide: float = between(0.6, 0.95, "radius of the chest / of the body")
     lip: float = between(1.15, 1.55, "radius of the lid / of the chest")
-    form: str = among(("disc", "disc", "dome", "square", "cap", "none"), "its lid")
+    form: str = among(lambda p: _lids(p.body.form), "its lid")
     bolts: int = among((0, 0, 4, 6, 8), "heads of bolts on the lid", when=of_form("disc", "dome"), otherwise=0)
     lean: float = among((0.0, 0.0, 0.4), "of the lid towards an end", "rad")
 
@@ -266,7 +272,7 @@ class Sleeve(_Kit, name="check valve/sleeve", sizes=sizes_between(15, 100), weig
         r, style = t.pipe.radius, t.style
         length, wide, ends = round(self.length * r + 0.015, 6), self.wide * r, self.ends * r
         n, half, bore = self.n(t, wide), length / 2, bore_of(t.dn, style)
-        shape = outline(wide, -half, wide, half)
+        shape = outline(1.12 * wide, -half, 1.12 * wide, half)
         if self.form == "stepped":
             a = (0.5 - self.share) * length
             shape = outline(ends, -half, ends, -a, wide * 1.1, -a, wide * 1.1, a, ends, a, ends, half)

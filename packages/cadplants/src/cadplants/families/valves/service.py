@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from cadplants.builder.device import Device, families_of
@@ -195,6 +197,7 @@ def _block() -> _Block:
 class AirRegulator(Valve, name="pressure reducing valve/air regulator", sizes=_SIZES, weight=3):
     """A regulator of compressed air: a block, a hood with a knob, a plug below, a small gauge in front."""
 
+    melted: bool = chance(0.25, "all of it, its gauge too, is one mesh")
     facets: int = among(FACETS, "sides of what is round; 0: as the style has them")
     block: _Block = _block()
     knob: _Knob = nested(_Knob, "hood and knob")
@@ -203,16 +206,25 @@ class AirRegulator(Valve, name="pressure reducing valve/air regulator", sizes=_S
     gauge: _Manometer = nested(_Manometer, "gauge", when=lambda p: p.gauged)
 
     def build(self, t: Table) -> Model:
+        length = round(2 * (self.block.half + self.block.end), 6)
+        if self.melted:
+            apart = replace(t, parts=[])
+            self._put(apart, length)
+            t.bundled("valve").add("valve", *(part.solid for part in apart.parts), of="valve")
+        else:
+            self._put(t, length)
+        return t.model(length, "welded", "pressure reducing valve")
+
+    def _put(self, t: Table, length: float) -> None:
+        """Puts its pieces down, of a length [m]."""
         block = self.block
         half, end, n = block.half, block.end, sides_of(t, block.half, self.facets)
-        length = round(2 * (half + end), 6)
         mid, ends = t.at(length / 2), (block.port(t, 0.0, 1.2 * end), block.port(t, length - 1.2 * end, length))
         plug = turned(outline(0.5 * half, -block.bottom - self.under * half, 0.65 * half, -block.bottom + 0.002), n)
         t.add(_BODY, *ends, *(moved(one, at(length / 2)) for one in (block.solid(t), plug)))
         self.knob.build(mid.at(0, 0, block.top), half, n)
         if self.gauged:
             self.gauge.build(mid.at(0, -block.before).along("-y"), n)
-        return t.model(length, "welded", "pressure reducing valve")
 
 
 class _Unit(Device, place="inline", group="Equipment", label=_FILTER, bundle=_FILTER, sizes=_SIZES):
