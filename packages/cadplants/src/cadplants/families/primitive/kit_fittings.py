@@ -47,7 +47,7 @@ class _Collared(Look):
     rim: Collar = nested(Collar, "collars")
 
 
-class _Kit(Device, place="inline", group="Pipe assembly", grain="fitting", weight=1.5):
+class _Kit(Device, place="inline", group="Pipe assembly", grain="fitting", weight=0.75):
     """Pieces of a kit in a row; where a fitting has no rims the spools beside it have them, or nothing has."""
 
     look: Look = nested(Look, "how its pieces are drawn")
@@ -113,7 +113,7 @@ class _Bend(Params):
         return t.spun("x", np.pi) if back else t
 
 
-class Loop(_Row, name="elbow/loop of a kit", label="elbow", bundle="elbow", weight=2):
+class Loop(_Row, name="elbow/loop of a kit", label="elbow", bundle="elbow", weight=1):
     """Four bends of a kit with spools between them, round an obstacle, each with its flanges in one mesh."""
 
     bend: _Bend = nested(_Bend, "its bends")
@@ -135,14 +135,14 @@ class Loop(_Row, name="elbow/loop of a kit", label="elbow", bundle="elbow", weig
         return t.spun("x", -self.roll * np.pi)
 
 
-class CollaredLoop(Loop, name="elbow/loop with collars", weight=1.2, sizes=_SOCKETS):
+class CollaredLoop(Loop, name="elbow/loop with collars", weight=0.6, sizes=_SOCKETS):
     """Four bends with thick sockets at their ends and pipe between them, round an obstacle."""
 
     look: Look = nested(_Collared, "how its pieces are drawn")
     rims: str = given("fittings", "what has rims")
 
 
-class Turn(_Kit, name="elbow/turn of a kit", place="end", label="elbow", bundle="elbow", weight=1.5):
+class Turn(_Kit, name="elbow/turn of a kit", place="end", label="elbow", bundle="elbow", weight=0.75):
     """One to three bends of a kit with spools between them, on a pipe's end."""
 
     count: int = whole(1, 3, "bends")
@@ -172,7 +172,7 @@ class Turn(_Kit, name="elbow/turn of a kit", place="end", label="elbow", bundle=
         return t.model()
 
 
-class CollaredTurn(Turn, name="elbow/turn with collars", weight=1.0, sizes=_SOCKETS):
+class CollaredTurn(Turn, name="elbow/turn with collars", weight=0.5, sizes=_SOCKETS):
     """One to three bends with thick sockets at their ends on a pipe's end."""
 
     look: Look = nested(_Collared, "how its pieces are drawn")
@@ -238,11 +238,11 @@ class _Branched(_Row):
             t.add("blind flange", lying(disc(rim.wide * r, 0.0, rim.plate(r), t.style)), of="flange")
 
 
-class KitTee(_Branched, name="tee/piece of a kit", label="tee", bundle="tee", weight=3):
+class KitTee(_Branched, name="tee/piece of a kit", label="tee", bundle="tee", weight=1.5):
     """A tee with flanges at its ends in one mesh, in a line, at times with spools of its kit."""
 
 
-class CollaredTee(KitTee, name="tee/with collars", weight=2, sizes=_SOCKETS):
+class CollaredTee(KitTee, name="tee/with collars", weight=1, sizes=_SOCKETS):
     """A tee with thick sockets at its ends in one mesh."""
 
     look: Look = nested(_Collared, "how its pieces are drawn")
@@ -250,19 +250,19 @@ class CollaredTee(KitTee, name="tee/with collars", weight=2, sizes=_SOCKETS):
     end: str = among(("open", "spool", "spool"), "what is on its branches")
 
 
-class KitLateral(_Branched, name="tee/lateral of a kit", label="tee", bundle="tee", weight=1.5):
+class KitLateral(_Branched, name="tee/lateral of a kit", label="tee", bundle="tee", weight=0.75):
     """A tee with a slanted branch and flanges at its ends in one mesh."""
 
     lean: float = among((0.25, 0.25, 1 / 3), _LEAN)
 
 
-class KitCross(_Branched, name="cross/piece of a kit", label="cross", bundle="cross", weight=1.2):
+class KitCross(_Branched, name="cross/piece of a kit", label="cross", bundle="cross", weight=0.6):
     """A cross with flanges at its ends in one mesh."""
 
     arms = 2
 
 
-class CollaredCross(KitCross, name="cross/with collars", sizes=_SOCKETS, weight=0.8):
+class CollaredCross(KitCross, name="cross/with collars", sizes=_SOCKETS, weight=0.4):
     """A cross with thick sockets at its ends in one mesh."""
 
     look: Look = nested(_Collared, "how its pieces are drawn")
@@ -273,7 +273,7 @@ class CollaredCross(KitCross, name="cross/with collars", sizes=_SOCKETS, weight=
 # --- straight pieces ---
 
 
-class Taper(_Row, name="reducer/pieces of a kit", label="reducer", bundle="reducer", sizes=SIZES[2:], weight=2):
+class Taper(_Row, name="reducer/pieces of a kit", label="reducer", bundle="reducer", sizes=SIZES[2:], weight=1):
     """A reducer, a narrow spool and a reducer back, each with its flanges in one mesh."""
 
     steps: int = whole(1, 3, "how many nominal sizes smaller the spool is")
@@ -303,7 +303,7 @@ class CollaredTaper(Taper, name="reducer/with collars", sizes=_SOCKETS[2:]):
     rims: str = given("fittings", "what has rims")
 
 
-class Spools(_Kit, name="pipe/spools of a kit", label="pipe", bundle="pipe", weight=3):
+class Spools(_Kit, name="pipe/spools of a kit", label="pipe", bundle="pipe", weight=1.5):
     """One to four straight pieces of pipe, short and long, with flanges at both ends or one in one mesh."""
 
     rims: str = given("both", "what has rims")
@@ -323,7 +323,7 @@ class Spools(_Kit, name="pipe/spools of a kit", label="pipe", bundle="pipe", wei
         return t.model(round(float(t.frame[0, 3] - begin.frame[0, 3]), 9), "welded", split=True)
 
 
-class Sockets(_Kit, name="coupling/pair of collars", label="coupling", bundle="coupling", sizes=_SOCKETS, weight=1.2):
+class Sockets(_Kit, name="coupling/pair of collars", label="coupling", bundle="coupling", sizes=_SOCKETS, weight=0.6):
     """A short piece with a thick collar at each end, or one collar all over, in one mesh."""
 
     look: Look = nested(_Collared, "how it is drawn")
@@ -345,7 +345,7 @@ class Pieces(
     label="pipe",
     bundle="pipe",
     grain="fitting",
-    weight=2.5,
+    weight=1.25,
 ):
     """One to three plain pieces of pipe end to end, from much shorter than wide to very long, of few sides."""
 
@@ -369,7 +369,7 @@ class Pieces(
         return t.model(round(x, 9), "welded", split=True)
 
 
-class Stub(_Kit, name="pipe/stub of a kit", place="end", label="pipe", bundle="pipe", weight=1.2):
+class Stub(_Kit, name="pipe/stub of a kit", place="end", label="pipe", bundle="pipe", weight=0.6):
     """A piece of pipe on a pipe's end with a flange, a lid or a blank in the same mesh at its end, or just open."""
 
     rims: str = given("both", "what has rims")
@@ -411,21 +411,21 @@ class _Clamped(_Kit, sizes=_HYGIENIC):
             self.band.build(t, 0.0, rim.wide * r, 2 * rim.plate(r), r, self.look.sides)
 
 
-class ClampedTurn(_Clamped, Turn, name="elbow/clamped turn", weight=0.7):
+class ClampedTurn(_Clamped, Turn, name="elbow/clamped turn", weight=0.35):
     """One to three hygienic bends with ferrules in one mesh and clamps between them, on a pipe's end."""
 
 
-class ClampedTee(_Clamped, KitTee, name="tee/clamped", weight=1.2):
+class ClampedTee(_Clamped, KitTee, name="tee/clamped", weight=0.6):
     """A hygienic tee with ferrules in one mesh, and clamps."""
 
     lead: float = among((0.7, 1.5, 3.0), "length of the spool at either end / diameter")
 
 
-class ClampedTaper(_Clamped, Taper, name="reducer/clamped", sizes=_HYGIENIC[2:], weight=0.8):
+class ClampedTaper(_Clamped, Taper, name="reducer/clamped", sizes=_HYGIENIC[2:], weight=0.4):
     """A hygienic reducer with ferrules, a narrow spool and a reducer back, with clamps."""
 
 
-class ClampedSpools(_Clamped, Spools, name="pipe/clamped spools", weight=1.2):
+class ClampedSpools(_Clamped, Spools, name="pipe/clamped spools", weight=0.6):
     """One to four hygienic pieces of tube with ferrules in one mesh, and clamps where they meet."""
 
     ends: str = given("both", "which ends of a piece have flanges")
