@@ -8,6 +8,7 @@ from cadplants.families.vessels.dry_filters import DRY_FILTERS
 from cadplants.families.vessels.exchangers import EXCHANGERS
 from cadplants.families.vessels.filters import FILTERS
 from cadplants.families.vessels.plate_tanks import PLATE_TANKS
+from cadplants.families.vessels.plate_stack import PLATE_STACKS
 from cadplants.families.vessels.pressure_vessels import PRESSURE_VESSELS
 from cadplants.families.vessels.radiators import RADIATORS
 from cadplants.families.vessels.separators import SEPARATORS
@@ -29,4 +30,5 @@ KINDS_OF_VESSELS: tuple[Family, ...] = (
     *DRY_FILTERS,
     *SEPARATORS,
     *PLATE_TANKS,
+    *PLATE_STACKS,
 )
