@@ -25,7 +25,9 @@ class _Compressor(Faceted, place="floor", group="Equipment", label=_NAME, bundle
 
 def louvres(wide: float, tall: float, count: int, deep: float = 0.008) -> list[Solid]:
     """Level strips on a sheet that looks to -y, about the origin [m]."""
-    return [box((wide, deep, 0.4 * tall / count), (0, -deep / 2, float(z))) for z in np.linspace(-0.5, 0.5, count) * tall]
+    return [
+        box((wide, deep, 0.4 * tall / count), (0, -deep / 2, float(z))) for z in np.linspace(-0.5, 0.5, count) * tall
+    ]
 
 
 class _Cabinet(_Compressor, sizes=(20, 25, 32, 40, 50)):
@@ -118,7 +120,7 @@ class _OnReceiver(_Compressor, sizes=(15, 20, 25)):
     fins: int = whole(0, 6, "fins round a cylinder")
     capped: bool = chance(0.7, "a head on each cylinder")
     filters: bool = chance(0.6, "a filter at each head")
-    wheel: float = between(1.0, 1.7, "radius of the flywheel / half the size of the crankcase")
+    wheel: float = between(0.85, 1.45, "radius of the flywheel / half the size of the crankcase")
     spokes: int = among((0, 0, 4, 5, 6), "spokes of the flywheel; 0: a disc")
     guard: str = among(("oval", "box", "oval", "half", "none"), "form of the belt guard")
     size: float = between(0.3, 0.55, "radius of the motor / of the receiver")
@@ -135,20 +137,20 @@ class _OnReceiver(_Compressor, sizes=(15, 20, 25)):
         t.add(_NAME, box((length, 1.3 * r, 0.02), (0, 0, deck - 0.01)), of="steel")
         c, m = self.block * r, self.size * r
         left, x = -0.3 * length, 0.3 * length
-        axis = deck + 1.0 * c
+        axis, wheel = deck + 1.0 * c, self.wheel * c
         self._block(t.at(left, 0, deck), c, n)
-        y, high = -0.75 * c - 0.05 * r, deck + 1.15 * m
-        t.at(left, 0, axis).along("y").add("shaft", cylinder(0.12 * c, y - 0.1 * r, 0, 8), own=True)
-        wheel = self.wheel * min(c, 0.9 * c)
+        y, stand = -0.75 * c - 0.05 * r, max(1.15 * m, 1.12 * wheel)
+        high, hub = deck + stand, max(axis, deck + 1.12 * wheel)
+        t.at(left, 0, hub).along("y").add("shaft", cylinder(0.12 * c, y - 0.1 * r, 0, 8), own=True)
         solids = [cylinder(wheel, y - 0.12 * c, y + 0.1 * c, n)]
         if self.spokes:
             spoke = box((0.8 * wheel, 0.16 * wheel, 0.16 * c), (0.45 * wheel, 0, y))
             solids = [ring(0.8 * wheel, wheel, y - 0.12 * c, y + 0.1 * c, n), around(spoke, self.spokes)]
-        t.at(left, 0, axis + max(0.0, wheel - c)).along("y").add(_NAME, *solids, of="trim")
+        t.at(left, 0, hub).along("y").add(_NAME, *solids, of="trim")
         drive = t.at(x, y + 0.1 * c, high).spun("x", -np.pi / 2).spun("z", -np.pi / 2)
-        self.motor.build(drive, m, min(self.long * m, 1.5 * r), self.n(t, m), 1.15 * m)
+        self.motor.build(drive, m, min(self.long * m, 1.5 * r), self.n(t, m), stand)
         t.at(x, 0, high).along("y").add("shaft", cylinder(0.15 * m, y - 0.1 * c, y + 0.12 * c, 8), own=True)
-        self._guard(t, (left, axis + max(0.0, wheel - c)), (x, high), wheel, y)
+        self._guard(t, (left, hub), (x, high), wheel, y)
         if self.piped:
             path = [(left + c, 0.4 * c, deck + 2.2 * c), (left + 1.7 * c, 0.4 * c, deck + 2.2 * c)]
             path.append((left + 1.7 * c, 0.4 * c, deck - 0.03))
@@ -192,7 +194,9 @@ class _OnReceiver(_Compressor, sizes=(15, 20, 25)):
 
     def _block(self, t: Table, c: float, n: int) -> None:
         """Crankcase, cylinders with fins, heads, filters, each a piece, on z = 0."""
-        case = along("y", cylinder(c, -0.7 * c, 0.7 * c, n), 0, 0, c) if self.round_ else box((1.6 * c, 1.4 * c, 1.7 * c))
+        case = (
+            along("y", cylinder(c, -0.7 * c, 0.7 * c, n), 0, 0, c) if self.round_ else box((1.6 * c, 1.4 * c, 1.7 * c))
+        )
         case = case if self.round_ else moved(case, at(0, 0, 0.85 * c))
         t.add(_NAME, case, of="pump")
         tilts = {"one": (0.0,), "two": (0.0, 0.0), "vee": (-0.65, 0.65)}[self.heads]

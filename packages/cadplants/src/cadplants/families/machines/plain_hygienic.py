@@ -13,7 +13,6 @@ from cadplants.model.family import Model, Port
 from cadplants.model.standards import PIPES, sizes_between, smaller
 from cadplants.solids.mesh_ops import Solid
 from cadplants.solids.primitives import BOTH, along, box, cylinder, dome, rod, turned
-from cadplants.solids.transforms import at
 
 __all__ = ["PLAIN_HYGIENIC"]
 
@@ -103,7 +102,9 @@ class Hygienic(PlainPump, name="pump/hygienic", sizes=sizes_between(20, 100), we
         solids, r, sides, flat = [], self.leg * m, max(6, n // 2), m * float(np.cos(np.pi / n))
         for x, side in spots:
             top = axis - float(np.sqrt(max(0.0, flat * flat - side * side))) + 0.05 * m
-            solids.append(box((2 * r, 2 * r, top), (x, side, top / 2)) if self.squared else _post(x, side, top, r, sides))
+            solids.append(
+                box((2 * r, 2 * r, top), (x, side, top / 2)) if self.squared else _post(x, side, top, r, sides)
+            )
             if self.soles:
                 solids.append(_post(x, side, 0.008 + 0.3 * r, self.soles * r, sides))
         return solids

@@ -21,8 +21,8 @@ from cadplants.solids.primitives import BOTH, along, around, box, cylinder, dome
 from cadplants.solids.transforms import at, looking, spun
 
 __all__ = [
-    "BOLTED", "Faceted", "Ferrule", "PlainBed", "PlainGuard", "PlainMotor", "PlainPort", "PlainPump", "Threaded", "arched",
-    "faced", "port_of",
+    "BOLTED", "Faceted", "Ferrule", "PlainBed", "PlainGuard", "PlainMotor", "PlainPort", "PlainPump", "Threaded",
+    "arched", "faced", "port_of",
 ]  # fmt: skip
 
 BOLTED = ("flange", "flange", "disc", "hub")

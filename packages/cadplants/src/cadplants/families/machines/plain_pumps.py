@@ -115,7 +115,9 @@ class Coupled(_EndSuction, name="pump/plain end suction", weight=3):
         if self.hubs:
             mid, thick = (end + far) / 2, 0.12 * (far - end)
             wide = 2.0 * self.shaft * m
-            rod += [cylinder(wide, mid + s * 0.6 * thick - thick / 2, mid + s * 0.6 * thick + thick / 2, n) for s in BOTH]
+            rod += [
+                cylinder(wide, mid + s * 0.6 * thick - thick / 2, mid + s * 0.6 * thick + thick / 2, n) for s in BOTH
+            ]
         t.at(0, 0, axis).along("x").add("shaft", *rod)
         if self.guarded:
             self.guard.build(t, end, far, axis, seat, m, n)
@@ -136,7 +138,9 @@ class Coupled(_EndSuction, name="pump/plain end suction", weight=3):
         else:
             shapes = {
                 "cylinder": outline(b, 0, b, long),
-                "stepped": outline(1.4 * b, 0, 1.4 * b, 0.15 * long, b, 0.15 * long, b, 0.85 * long, 1.2 * b, 0.85 * long)
+                "stepped": outline(
+                    1.4 * b, 0, 1.4 * b, 0.15 * long, b, 0.15 * long, b, 0.85 * long, 1.2 * b, 0.85 * long
+                )
                 + [(1.2 * b, long)],
                 "cone": outline(min(0.9 * r, 1.6 * b), 0, 0.8 * b, 0.6 * long, 0.8 * b, long),
             }

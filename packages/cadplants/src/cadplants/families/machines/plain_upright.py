@@ -11,9 +11,8 @@ from cadplants.families.machines.drives import CASING, dead_room
 from cadplants.families.machines.plain_parts import PlainMotor, PlainPort, PlainPump, Threaded, arched, port_of
 from cadplants.model.family import Model
 from cadplants.solids.mesh_ops import Solid, extrude, moved
-from cadplants.solids.polygon import rounded_rectangle
-from cadplants.solids.primitives import BOTH, along, around, box, cylinder, hexagon, ring, turned
-from cadplants.solids.transforms import at, spun
+from cadplants.solids.primitives import BOTH, along, around, box, cylinder, hexagon, turned
+from cadplants.solids.transforms import spun
 
 __all__ = ["PLAIN_UPRIGHT"]
 

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from cadplants.families.vessels.boilers import BOILERS
 from cadplants.families.vessels.building_vessels import BUILDING_VESSELS
+from cadplants.families.vessels.dosing_tanks import DOSING_TANKS
 from cadplants.families.vessels.dry_filters import DRY_FILTERS
 from cadplants.families.vessels.exchangers import EXCHANGERS
 from cadplants.families.vessels.filters import FILTERS
-from cadplants.families.vessels.plate_tanks import PLATE_TANKS
+from cadplants.families.vessels.plain_boilers import PLAIN_BOILERS
+from cadplants.families.vessels.plain_dryers import PLAIN_DRYERS
 from cadplants.families.vessels.plate_stack import PLATE_STACKS
+from cadplants.families.vessels.plate_tanks import PLATE_TANKS
 from cadplants.families.vessels.pressure_vessels import PRESSURE_VESSELS
 from cadplants.families.vessels.radiators import RADIATORS
 from cadplants.families.vessels.separators import SEPARATORS
@@ -31,4 +34,7 @@ KINDS_OF_VESSELS: tuple[Family, ...] = (
     *SEPARATORS,
     *PLATE_TANKS,
     *PLATE_STACKS,
+    *PLAIN_DRYERS,
+    *PLAIN_BOILERS,
+    *DOSING_TANKS,
 )

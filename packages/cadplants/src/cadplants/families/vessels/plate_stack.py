@@ -23,7 +23,9 @@ class _Mouth(PlainPort):
     form: str = among((*BOLTED, "thread", "stub", "stub"), "what is at its end")
 
 
-class _Stack(Faceted, place="floor", group="Equipment", label=_NAME, bundle=_NAME, sizes=(20, 25, 32, 40, 50, 65, 80, 100)):
+class _Stack(
+    Faceted, place="floor", group="Equipment", label=_NAME, bundle=_NAME, sizes=(20, 25, 32, 40, 50, 65, 80, 100)
+):
     """A gasketed plate exchanger of plain shapes."""
 
     wide: float = between(4.2, 7.5, "width of the plates / of the pipe")
@@ -36,7 +38,9 @@ class _Stack(Faceted, place="floor", group="Equipment", label=_NAME, bundle=_NAM
     count: int = whole(6, 36, "plates of the pack", when=lambda p: p.pack != "block")
     spaced: float = between(0.4, 1.0, "thickness of a plate / pitch", when=lambda p: p.pack == "plates")
     bars: str = among(("rods", "flats", "none"), "the carrying bars")
-    beyond: float = among((0.0, 0.3, 0.8, 1.4), "the bars behind the pack / its length", when=lambda p: p.bars != "none")
+    beyond: float = among(
+        (0.0, 0.3, 0.8, 1.4), "the bars behind the pack / its length", when=lambda p: p.bars != "none", otherwise=0.0
+    )
     column: bool = chance(0.7, "a column at the far end of the bars", when=lambda p: p.beyond > 0)
     ties: int = among((0, 2, 3, 4, 5), "tie bolts on each side")
     nuts: bool = chance(0.6, "nuts on them", when=lambda p: p.ties)
@@ -83,7 +87,10 @@ class _Stack(Faceted, place="floor", group="Equipment", label=_NAME, bundle=_NAM
         if self.feet == "blocks":
             return [box((2 * self.ends + 0.02, 0.2 * wide, z), (x, s * 0.38 * wide, z / 2)) for s in BOTH]
         flats = [box((4 * self.ends + 0.04, 0.16 * wide, 0.01), (x, s * 0.4 * wide, 0.005)) for s in BOTH]
-        return [*flats, *(box((0.01, 0.16 * wide, z + 0.02 * h), (x, s * 0.4 * wide, (z + 0.02 * h) / 2)) for s in BOTH)]
+        return [
+            *flats,
+            *(box((0.01, 0.16 * wide, z + 0.02 * h), (x, s * 0.4 * wide, (z + 0.02 * h) / 2)) for s in BOTH),
+        ]
 
     def _pack(self, t: Table, w: float, h: float, z: float, far: float) -> None:
         low, mid = self.ends, z + h / 2
