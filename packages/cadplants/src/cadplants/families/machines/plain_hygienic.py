@@ -114,4 +114,8 @@ def _post(x: float, y: float, top: float, r: float, n: int) -> Solid:
     return rod((x, y, 0), (x, y, top), r, n)
 
 
-PLAIN_HYGIENIC = families_of(Hygienic)
+class HygienicInPieces(Hygienic, name="pump/hygienic in pieces", weight=1.2, grain="fitting"):
+    """A hygienic centrifugal pump, each a piece of its own."""
+
+
+PLAIN_HYGIENIC = families_of(Hygienic, HygienicInPieces)

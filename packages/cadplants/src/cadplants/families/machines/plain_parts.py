@@ -281,7 +281,7 @@ class PlainBed(Params):
     form: str = among(("slab", "slab", "channels", "frame", "tray", "beams", "block", "pads"), "its form")
     high: float = between(0.02, 0.16, "height", "m")
     more: float = between(0.0, 0.12, "how far it stands out on each side", "m")
-    block: float = among((0.0, 0.0, 0.0, 0.08, 0.15, 0.3, 0.5), "height of concrete below", "m")
+    block: float = among((0.0, 0.0, 0.0, 0.0, 0.08, 0.15, 0.3, 0.5), "height of concrete below", "m")
 
     @property
     def seat(self) -> float:

@@ -14,7 +14,6 @@ from cadplants.model.standards import PIPES, smaller
 from cadplants.solids.mesh_ops import Solid, extrude, merge, moved
 from cadplants.solids.polygon import rounded_rectangle
 from cadplants.solids.primitives import BOTH, along, box, cylinder, lofted, turned
-from cadplants.solids.transforms import at
 
 __all__ = ["PLAIN_PUMPS"]
 
@@ -130,7 +129,7 @@ class Coupled(_EndSuction, name="pump/plain end suction", weight=3):
         """Puts the bearing housing down behind the casing; where it ends."""
         b, long, n = self.slim * r, self.deep * r, self.n(t, self.slim * r)
         if self.bearing == "box":
-            solids = [moved(extrude(rounded_rectangle(1.8 * b, 1.8 * b, 0.15 * b, 2), 0, long), at())]
+            solids = [extrude(rounded_rectangle(1.8 * b, 1.8 * b, 0.15 * b, 2), 0, long)]
         elif self.bearing == "lantern":
             solids = [cylinder(1.3 * b, 0, 0.18 * long, n), cylinder(b, 0.8 * long, long, n)]
             solids += [box((0.3 * b, 0.4 * b, 0.7 * long), (s * 0.75 * b, 0, 0.48 * long)) for s in BOTH]
@@ -138,10 +137,9 @@ class Coupled(_EndSuction, name="pump/plain end suction", weight=3):
         else:
             shapes = {
                 "cylinder": outline(b, 0, b, long),
-                "stepped": outline(
-                    1.4 * b, 0, 1.4 * b, 0.15 * long, b, 0.15 * long, b, 0.85 * long, 1.2 * b, 0.85 * long
-                )
-                + [(1.2 * b, long)],
+                "stepped": [
+                    (f * b, z * long) for f, z in outline(1.4, 0, 1.4, 0.15, 1, 0.15, 1, 0.85, 1.2, 0.85, 1.2, 1)
+                ],
                 "cone": outline(min(0.9 * r, 1.6 * b), 0, 0.8 * b, 0.6 * long, 0.8 * b, long),
             }
             solids = [turned(shapes[self.bearing], n)]
@@ -156,6 +154,10 @@ class Coupled(_EndSuction, name="pump/plain end suction", weight=3):
             joined = merge([first.solid, *(moved(one, where.frame) for one in (*lying, bracket))])
             t.parts[0] = type(first)(joined, first.name, first.color, first.bundle)
         return end
+
+
+class CoupledInPieces(Coupled, name="pump/end suction in pieces", weight=2.5, grain="fitting"):
+    """A frame-mounted end-suction pump of plain shapes, each a piece of its own."""
 
 
 class Monobloc(_EndSuction, name="pump/plain monobloc", weight=2):
@@ -191,4 +193,4 @@ class Monobloc(_EndSuction, name="pump/plain monobloc", weight=2):
         return t.model(ports=ports, kind="centrifugal pump")
 
 
-PLAIN_PUMPS = families_of(Coupled, Monobloc)
+PLAIN_PUMPS = families_of(Coupled, CoupledInPieces, Monobloc)

@@ -111,6 +111,10 @@ class Multistage(_Upright, name="pump/plain multistage", sizes=(25, 32, 40, 50, 
         return self.put(t, (self.suction, self.discharge), reach, 0.0)
 
 
+class MultistageInPieces(Multistage, name="pump/multistage in pieces", weight=1.2, grain="fitting"):
+    """An upright multistage pump of plain shapes, each a piece of its own."""
+
+
 class Jockey(_Upright, name="pump/jockey", sizes=(15, 20, 25, 32, 40), weight=1.5):
     """A small upright multistage pump that keeps a fire main under pressure: threaded mouths, level or not."""
 
@@ -130,4 +134,4 @@ class Jockey(_Upright, name="pump/jockey", sizes=(15, 20, 25, 32, 40), weight=1.
         return model
 
 
-PLAIN_UPRIGHT = families_of(Multistage, Jockey)
+PLAIN_UPRIGHT = families_of(Multistage, MultistageInPieces, Jockey)
