@@ -214,7 +214,7 @@ class PlainGuard(Params):
         "its shape",
     )
     wide: float = between(0.3, 0.95, "radius / of the motor")
-    share: float = between(0.62, 0.99, "length / of the gap")
+    share: float = between(0.62, 1.1, "length / of the gap")
     legs: float = between(0.15, 1.0, "how far its legs come down / height of the axis over the seat")
     footed: bool = chance(0.3, "a foot below it", when=lambda p: p.form in ("cylinder", "tube", "half drum"))
     flanged: bool = chance(0.25, "lips along its legs", when=lambda p: p.form in ("hood", "sheet", "open box"))

@@ -97,8 +97,9 @@ class Coupled(_EndSuction, name="pump/plain end suction", weight=3):
     slender: float = between(2.0, 4.2, "length of the motor / its radius")
     gap: float = between(0.5, 1.7, "from the bearing housing to the motor / radius of the motor")
     shaft: float = between(0.1, 0.26, "radius of the shaft / of the motor")
-    hubs: bool = chance(0.45, "hubs of a coupling on the shaft")
     guarded: bool = chance(0.93, "a coupling guard")
+    hidden: bool = chance(0.12, "no shaft is modelled below the guard", when=lambda p: p.guarded)
+    hubs: bool = chance(0.45, "hubs of a coupling on the shaft", when=lambda p: not p.hidden)
     guard: PlainGuard = nested(PlainGuard, "coupling guard", when=lambda p: p.guarded)
     motor: PlainMotor = nested(PlainMotor, "motor")
     bed: PlainBed = nested(PlainBed, "bed")
@@ -117,7 +118,7 @@ class Coupled(_EndSuction, name="pump/plain end suction", weight=3):
             rod += [
                 cylinder(wide, mid + s * 0.6 * thick - thick / 2, mid + s * 0.6 * thick + thick / 2, n) for s in BOTH
             ]
-        t.at(0, 0, axis).along("x").add("shaft", *rod)
+        t.at(0, 0, axis).along("x").add("shaft", *([] if self.hidden else rod))
         if self.guarded:
             self.guard.build(t, end, far, axis, seat, m, n)
         length = self.slender * m
