@@ -5,6 +5,7 @@ import pytest
 
 from cadgraph.model.vocabulary import default_vocabulary
 from cadplants import PRESETS, STYLES, Defects, degrade, make
+from cadplants.model.plant import turned_front
 from cadplants.truth.truth_writer import truth_of
 from plants.solids import is_closed, shell_volumes, touching
 
@@ -184,3 +185,22 @@ def test_field_holds_all_of_them_apart():
     for a, b in plant.contacts:
         pair = {plant.components[a].cluster, plant.components[b].cluster} - {""}
         assert len(pair) == 1
+
+
+def test_no_dial_looks_into_a_pipe_before_it(plant):
+    gauges = {unit.id for unit in plant.units if unit.type == "gauge"}
+    fronts = [(c, turned_front(c.front, c.pose)) for c in plant.components if c.unit in gauges and c.front]
+    assert fronts
+    for component, front in fronts:
+        middle = component.pose[:3, 3] + component.pose[:3, :3] @ component.solid.vertices.mean(axis=0)
+        sight = middle + np.linspace(0.0, 0.25, 26)[:, None] * np.array(front)
+        for line in plant.lines:
+            assert clearance(sight, line.points) > line.outer / 2, (component.unit, line.id)
+
+
+def clearance(places, polyline):
+    """The least distance of some places from a polyline."""
+    start, along = polyline[:-1], np.diff(polyline, axis=0)
+    offset = places[:, None] - start
+    share = np.clip((offset * along).sum(axis=2) / np.maximum((along**2).sum(axis=1), 1e-12), 0, 1)
+    return np.linalg.norm(offset - share[..., None] * along, axis=2).min()

@@ -137,8 +137,8 @@ class Choice:
         """
 
         def build(style: ModelingStyle) -> Assembly:
-            turn = -np.pi / 2 if down else np.pi / 2
-            gauge = side_gauge(unit, style, size, 0.09 if size < 100 else 0.11, 0.06, turn, needle)
+            # The dial looks away from its pipe, whichever way the run goes.
+            gauge = side_gauge(unit, style, size, 0.09 if size < 100 else 0.11, 0.06, -np.pi / 2, needle)
             gauge = marked_gauge(gauge, size, self._marks(style), style)
             # On a run that goes down, up is against it.
             return gauge.placed(_AGAINST) if down else gauge

@@ -116,7 +116,8 @@ def _header(work: _Work, tag: str, sizes: tuple[int, int], place: tuple[float, f
     kind = "butterfly" if rng.random() < 0.6 else "gate"
     unit = f"V-{tag}"
     valve = work.choice.valve(high - low - 0.50, kind, unit, dn)
-    dial = np.pi / 2 * plan.side
+    # The dial looks across the header, to where the pumps stand.
+    dial = 0.0 if plan.side > 0 else np.pi
     tap = work.choice.gauge(high - low - 0.86, f"G-{tag}", 100, work.needle(), dial)
     # Behind the pumps a relief valve guards the header.
     taps = (

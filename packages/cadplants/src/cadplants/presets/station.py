@@ -205,8 +205,6 @@ def _discharge_header(work: _Work, receiver: Tank, first: int) -> Placed:
     corners = [(0.0, start, z), (0.0, float(face[1]), z), tuple(float(v) for v in face)]
     tees = [tee_at(y - start, f"J-D{k + 1}", _DISCHARGE, _PUMP_OUT, np.pi) for k, y in enumerate(work.plan.pumps)]
     last = work.plan.pumps[1] - start
-    # The header comes from behind, so a dial that is to be read from the motors' side turns to the right.
-    dial = -np.pi / 2
     run = Run(
         "D",
         _DISCHARGE,
@@ -218,7 +216,7 @@ def _discharge_header(work: _Work, receiver: Tank, first: int) -> Placed:
         ),
         (
             work.choice.relief_valve(last + 0.24, "V-R", int(work.rng.integers(1000))),
-            work.choice.gauge(last + 0.48, "G-D", 100, work.needle(), dial),
+            work.choice.gauge(last + 0.48, "G-D", 100, work.needle()),
         ),
         ends=("blind", "joint"),
         nodes=("", "T-2"),

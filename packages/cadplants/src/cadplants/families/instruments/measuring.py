@@ -8,6 +8,7 @@ from cadplants.families.instruments.gauge import GAUGE_BUILDS
 from cadplants.families.instruments.heat import HEAT_BUILDS
 from cadplants.families.instruments.level import LEVEL_BUILDS
 from cadplants.families.instruments.panel import PANEL_BUILDS
+from cadplants.families.instruments.plain import PLAIN_INSTRUMENTS
 from cadplants.families.instruments.pressure import PRESSURE_BUILDS
 from cadplants.families.instruments.sight import SIGHT_BUILDS
 from cadplants.families.instruments.siphons import SIPHONS
@@ -25,5 +26,6 @@ MEASURING: tuple[Family, ...] = (
     *FLOW_BUILDS,
     *COUNTER_BUILDS,
     *SIGHT_BUILDS,
+    *PLAIN_INSTRUMENTS,
 )
 """The families of devices and structures that an assortment draws from."""

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from cadplants.families.primitive.fittings import PRIMITIVE_FITTINGS
 from cadplants.families.primitive.instruments import PRIMITIVE_INSTRUMENTS
+from cadplants.families.primitive.kit_fittings import KIT_FITTINGS
+from cadplants.families.primitive.kit_tank import KIT_TANKS
+from cadplants.families.primitive.kit_valves import KIT_VALVES
 from cadplants.families.primitive.machines import PRIMITIVE_MACHINES
 from cadplants.families.primitive.pieces import PRIMITIVE_PIECES
 from cadplants.families.primitive.pumps import PRIMITIVE_PUMPS
@@ -18,7 +21,10 @@ PRIMITIVES: dict[str, Family] = {
     family.name: family
     for family in (
         *PRIMITIVE_VALVES,
+        *KIT_VALVES,
         *PRIMITIVE_FITTINGS,
+        *KIT_FITTINGS,
+        *KIT_TANKS,
         *PRIMITIVE_INSTRUMENTS,
         *PRIMITIVE_PUMPS,
         *PRIMITIVE_MACHINES,

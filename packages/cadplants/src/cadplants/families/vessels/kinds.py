@@ -4,9 +4,13 @@ from __future__ import annotations
 
 from cadplants.families.vessels.boilers import BOILERS
 from cadplants.families.vessels.building_vessels import BUILDING_VESSELS
+from cadplants.families.vessels.dosing_tanks import DOSING_TANKS
 from cadplants.families.vessels.dry_filters import DRY_FILTERS
 from cadplants.families.vessels.exchangers import EXCHANGERS
 from cadplants.families.vessels.filters import FILTERS
+from cadplants.families.vessels.plain_boilers import PLAIN_BOILERS
+from cadplants.families.vessels.plain_dryers import PLAIN_DRYERS
+from cadplants.families.vessels.plate_stack import PLATE_STACKS
 from cadplants.families.vessels.plate_tanks import PLATE_TANKS
 from cadplants.families.vessels.pressure_vessels import PRESSURE_VESSELS
 from cadplants.families.vessels.radiators import RADIATORS
@@ -29,4 +33,8 @@ KINDS_OF_VESSELS: tuple[Family, ...] = (
     *DRY_FILTERS,
     *SEPARATORS,
     *PLATE_TANKS,
+    *PLATE_STACKS,
+    *PLAIN_DRYERS,
+    *PLAIN_BOILERS,
+    *DOSING_TANKS,
 )
