@@ -1,9 +1,12 @@
 """What stands against a section without being joined to it makes an answer doubtful."""
 
+import pytest
+
 import shapes
+from cadgraph.model.labels import Guess
 from cadgraph.query import find_isolation
 from cadgraph.query.trace import trace
-from piping import FASTENER, PIPE, TANK, VALVE, Plant, R, pipe, turned, valve_mesh
+from piping import FASTENER, PIPE, STEEL, TANK, VALVE, Plant, R, pipe, turned, valve_mesh
 
 TANK_MESH = turned(shapes.cylinder(0.5, 2.0, 64), (0, 0, 1), (0, 0, 1))
 
@@ -15,7 +18,10 @@ def tank_line():
 
 
 def doubts(plant, **settings):
-    graph = plant.graph(**settings)
+    return doubts_of(plant.graph(**settings))
+
+
+def doubts_of(graph):
     return [doubt.text for doubt in find_isolation(graph, "T-001", assume_shutoff=True).doubts if "stands" in doubt.text
             or "lies at" in doubt.text]  # fmt: skip
 
@@ -59,3 +65,28 @@ def test_a_pipe_in_no_line_over_a_piece_that_has_no_label():
     plant.add(shapes.box((0.03, 0.03, 0.2), (1, 0, 1 + R + 0.14)), PIPE, "pipe")
     (text,) = doubts(plant)
     assert "(likely pipe), in no network, stands against part-" in text
+
+
+def perhaps(graph, *guesses):
+    """The doubts about a plant whose last part has no label and may be something."""
+    last = graph.parts()[-1]
+    guessed = tuple(Guess(group, name, sure) for group, name, sure in guesses)
+    graph.nodes[last.id] = last.model_copy(update={"guesses": guessed})
+    return doubts_of(graph)
+
+
+@pytest.mark.parametrize(("sure", "n"), [(0.4, 1), (0.2, 0)])
+def test_a_piece_without_a_label_that_may_be_a_valve(sure, n):
+    plant = tank_line().add(turned(shapes.cylinder(0.02, 0.12), (1, 0, 1 + R + 0.06), (0, 0, 1)), None)
+    found = perhaps(plant.graph(), (VALVE, "valve", sure / 2), (VALVE, "valve body", sure / 2), (STEEL, "post", 0.1))
+    assert len(found) == n
+    assert all("(without a label, perhaps valve), in no network, stands against part-" in text for text in found)
+
+
+@pytest.mark.parametrize(("over", "n"), [(True, 1), (False, 0)])
+def test_a_piece_without_a_label_that_may_be_a_pipe_over_another_one(over, n):
+    plant = tank_line()
+    if over:
+        plant.add(shapes.box((0.06, 0.06, 0.04), (1, 0, 1 + R + 0.02)), None)
+    plant.add(shapes.box((0.03, 0.03, 0.2), (1, 0, 1 + R + 0.1 + 0.04 * over)), None)
+    assert len(perhaps(plant.graph(), (PIPE, "pipe", 0.25), (TANK, "nozzle", 0.25))) == n

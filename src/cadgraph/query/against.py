@@ -6,7 +6,7 @@ a clamp: the network has a gap there, and an answer about the piece would pass o
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -23,6 +23,7 @@ _STEPS = 3  # so many loose parts at most lead from a piece to what stands again
 _NEAR = 0.005  # [m]; how far beyond its own radius an end lies from what it stands against at most
 _DEVICES = frozenset({"valve", "pump"})
 _PIPE = "pipe"
+_MAYBE = 0.3  # of what a part without a label may be, the least probability that counts
 _BODIES = frozenset({None, "valve", "valve body", "pump", "pump casing"})
 
 
@@ -111,7 +112,7 @@ class _Search:
                         continue
                     seen.add(other.id)
                     # A pipe that stands against the piece itself has a joint that was judged.
-                    if self._is_device(other) or (over and other.label is not None and other.label.name == _PIPE):
+                    if self._is_device(other) or (over and self._is_pipe(other)):
                         yield Against(inner, over, None, other.id)
                     elif len(over) < _STEPS:
                         onward.append((other.id, inner, (*over, other.id)))
@@ -128,10 +129,25 @@ class _Search:
         return functional or not holds if label.likely else functional and not holds
 
     def _is_device(self, part: Part) -> bool:
-        """Whether a loose part is likely all of a valve or a pump, or its body."""
-        label = part.label
-        tree = self.network.graph.vocabulary.get(label.group, {}) if label is not None else {}
-        return label is not None and tree.get("unit") in _DEVICES and label.name in _BODIES
+        """Whether a loose part is likely all of a valve or a pump, or its body, or may be where it has no label."""
+        return self._may_be(part, lambda group, name: self._unit_of(group) in _DEVICES and name in _BODIES)
+
+    def _is_pipe(self, part: Part) -> bool:
+        """Whether a loose part is likely a pipe, or where it has no label may be some piece of piping or a device."""
+        if part.label is not None:
+            return part.label.name == _PIPE
+        return self._may_be(part, lambda group, _: group in self._functional)
+
+    def _may_be(self, part: Part, is_meant: Callable[[str, str | None], bool]) -> bool:
+        """Whether a part's label is one that is meant, or without a label its guesses that are weigh enough."""
+        if part.label is not None:
+            return is_meant(part.label.group, part.label.name)
+        return sum(guess.confidence for guess in part.guesses if is_meant(guess.group, guess.name)) >= _MAYBE
+
+    def _unit_of(self, group: str) -> str | None:
+        """The type of unit that a group's parts form."""
+        unit = self.network.graph.vocabulary.get(group, {}).get("unit")
+        return unit if isinstance(unit, str) else None
 
     def _stands(self, part: Part, before: Part) -> Iterator[str]:
         """What a part belongs to that the piece may go on in: a unit that lacks a line, or an end that lies here."""

@@ -216,13 +216,18 @@ def _stands_against(network: Network, home: Mapping[str, str], found: Against, a
     return Doubt(place, network.name(place), text, (found.inner, found.part))
 
 
+def _may_be(part: Part) -> str:
+    """What a part is likely, or perhaps where it has no label, in words."""
+    if part.label is not None:
+        return f"likely {part.label.name or part.label.group}"
+    best = max(part.guesses, key=lambda guess: guess.confidence)
+    return f"without a label, perhaps {best.name or best.group}"
+
+
 def _outside(network: Network, found: Against) -> str:
     """What stands against a piece, in words."""
     if found.place is None:
-        label = network.graph.part(found.part).label
-        return (
-            f"{found.part} (likely {label.name or label.group if label else 'a device'}), in no network, stands against"
-        )
+        return f"{found.part} ({_may_be(network.graph.part(found.part))}), in no network, stands against"
     node = network.places[found.place]
     if not isinstance(node, Unit):
         return f"{network.what(found.place)} {network.name(found.place)} of another line lies at"
