@@ -182,7 +182,8 @@ def test_three_seconds_are_three_seconds_and_others_wait_no_longer(rows):
     database.close()
 
 
-def test_rows_and_cells_are_cut_and_that_is_said(database):
+def test_rows_and_cells_are_cut_and_that_is_said(rows):
+    database = Database(rows, SECONDS)
     found = database.ask(SERIES.format(501) + "SELECT n FROM r")
     assert ([row[0] for row in found.rows], found.complete) == (list(range(1, 501)), False)
     found = database.ask(SERIES.format(500) + "SELECT n FROM r")
@@ -192,6 +193,7 @@ def test_rows_and_cells_are_cut_and_that_is_said(database):
     wide = database.ask(SERIES.format(500) + "SELECT " + "substr(u, 1, 400)," * 10 + f"n FROM r, {LONG}")
     assert not wide.complete
     assert 40 < len(wide.rows) < 100
+    database.close()
 
 
 def test_the_tables_that_a_query_makes_itself_can_be_counted(database):
