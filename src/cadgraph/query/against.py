@@ -130,24 +130,19 @@ class _Search:
 
     def _is_device(self, part: Part) -> bool:
         """Whether a loose part is likely all of a valve or a pump, or its body, or may be where it has no label."""
-        return self._may_be(part, lambda group, name: self._unit_of(group) in _DEVICES and name in _BODIES)
+        if part.label is not None:
+            return self._is_body(part.label.group, part.label.name)
+        return _guessed(part, self._is_body)
+
+    def _is_body(self, group: str, name: str | None) -> bool:
+        """Whether a label is that of a valve or a pump, or of its body."""
+        return self.network.graph.vocabulary.get(group, {}).get("unit") in _DEVICES and name in _BODIES
 
     def _is_pipe(self, part: Part) -> bool:
         """Whether a loose part is likely a pipe, or where it has no label may be some piece of piping or a device."""
         if part.label is not None:
             return part.label.name == _PIPE
-        return self._may_be(part, lambda group, _: group in self._functional)
-
-    def _may_be(self, part: Part, is_meant: Callable[[str, str | None], bool]) -> bool:
-        """Whether a part's label is one that is meant, or without a label its guesses that are weigh enough."""
-        if part.label is not None:
-            return is_meant(part.label.group, part.label.name)
-        return sum(guess.confidence for guess in part.guesses if is_meant(guess.group, guess.name)) >= _MAYBE
-
-    def _unit_of(self, group: str) -> str | None:
-        """The type of unit that a group's parts form."""
-        unit = self.network.graph.vocabulary.get(group, {}).get("unit")
-        return unit if isinstance(unit, str) else None
+        return _guessed(part, lambda group, _: group in self._functional)
 
     def _stands(self, part: Part, before: Part) -> Iterator[str]:
         """What a part belongs to that the piece may go on in: a unit that lacks a line, or an end that lies here."""
@@ -169,6 +164,11 @@ class _Search:
         if network.is_gauge(unit.id):
             return is_gauge_by_place(network, unit.id)
         return network.ports_in_use(unit.id) < least_ports(unit.unit_type, unit.kind)
+
+
+def _guessed(part: Part, is_meant: Callable[[str, str | None], bool]) -> bool:
+    """Whether the guesses about a part that are meant weigh enough together."""
+    return sum(guess.confidence for guess in part.guesses if is_meant(guess.group, guess.name)) >= _MAYBE
 
 
 def _lies_at(network: Network, end: Terminal, part: Part) -> bool:

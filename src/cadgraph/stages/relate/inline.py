@@ -278,20 +278,14 @@ def _stems(piping: Piping, beliefs: Beliefs, piece: _Piece) -> set[int]:
 def _operators(piping: Piping, piece: _Piece) -> set[int]:
     """Parts of valves that no line leads to and that sit on a piece and on no other line: a lever, a bonnet."""
     on_it = {other for own in piece.parts for other in piping.given.neighbors.get(own, ())}
-    sitting = [
-        group
-        for group in piping.groups
-        if group.unit_type == "valve"
-        and not on_it.isdisjoint(group.parts)
-        and piping.mounted.keys().isdisjoint(group.parts)
-        and _lines_at(piping, group.parts) <= set(piece.parts)
-    ]
-    return {part for group in sitting for part in group.parts}
+    near = [group for group in piping.groups if group.unit_type == "valve" and not on_it.isdisjoint(group.parts)]
+    return {part for group in near if _rests_on(piping, group, piece) for part in group.parts}
 
 
-def _lines_at(piping: Piping, parts: Collection[int]) -> set[int]:
-    """The parts with a line that some others touch."""
-    return {other for part in parts for other in piping.given.neighbors.get(part, ()) if other in piping.lines}
+def _rests_on(piping: Piping, group: Group, piece: _Piece) -> bool:
+    """Whether no line leads to a group at a piece, and it touches no other line."""
+    lines = {line for part in group.parts for line in piping.lines_near(part)}
+    return lines <= set(piece.parts) and piping.mounted.keys().isdisjoint(group.parts)
 
 
 def _is_stem(piping: Piping, piece: _Piece, part: int, thin: float) -> bool:

@@ -11,7 +11,7 @@ from cadgraph.geometry.line.centreline import Branch, Centreline
 from cadgraph.model.derived import store_of
 from cadgraph.model.scene import Floats, Ints
 
-__all__ = ["Ends", "Facing", "Tap", "find_tap", "gather_ends", "nearest_on", "same_place"]
+__all__ = ["Ends", "Facing", "Tap", "extent_about", "find_tap", "gather_ends", "nearest_on", "same_place"]
 
 # Two ends in one place look the same way (cosine), and their axes are apart by at most this share of the lesser radius,
 # or this much [m] where that is more.
@@ -107,6 +107,20 @@ def gather_ends(lines: Mapping[int, Centreline]) -> Ends:
         length=table[:, 8].copy(),
         of_part=of_part,
     )
+
+
+def extent_about(ends: Ends, row: int, points: Floats) -> tuple[float, float]:
+    """How long some points are along the axis of an end, and how far they reach from it [m].
+
+    Args:
+        ends: of all lines.
+        row: the end.
+        points: ``(n, 3)`` [m].
+    """
+    offset = points - ends.point[row]
+    along = offset @ ends.direction[row]
+    across = np.linalg.norm(offset - along[:, None] * ends.direction[row], axis=1)
+    return float(np.ptp(along)) if len(along) else 0.0, float(across.max(initial=0.0))
 
 
 def same_place(ends: Ends, row: int, others: Sequence[int], reach: float) -> int | None:

@@ -164,7 +164,7 @@ class Piping:
     @cached_property
     def bolted(self) -> frozenset[tuple[int, int]]:
         """Pairs of parts with lines that one fastener touches both of."""
-        held = [near for part in self._fasteners if len(near := self._lines_near(part)) <= _MOST_HELD]
+        held = [near for part in self._fasteners if len(near := self.lines_near(part)) <= _MOST_HELD]
         return frozenset((a, b) for near in held for a in near for b in near if a < b)
 
     @property
@@ -172,7 +172,7 @@ class Piping:
         """Fasteners by name that carry no line."""
         return [part for part, name in enumerate(self.roles.names) if name in FASTENERS and part not in self.lines]
 
-    def _lines_near(self, part: int) -> list[int]:
+    def lines_near(self, part: int) -> list[int]:
         """The parts with a line near one."""
         return [other for other in self.given.neighbors.get(part, ()) if other in self.lines]
 

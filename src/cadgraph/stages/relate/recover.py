@@ -14,7 +14,7 @@ from cadgraph.stages.relate.evidence import Curve, Term, tell_terms
 from cadgraph.stages.relate.flanged import heads_for
 from cadgraph.stages.relate.foot import take_feet
 from cadgraph.stages.relate.inline import pipe_radius, recover_inline
-from cadgraph.stages.relate.joint import Ends
+from cadgraph.stages.relate.joint import Ends, extent_about
 from cadgraph.stages.relate.meter import take_meters
 from cadgraph.stages.relate.piping import Group, Piping, Recovered
 from cadgraph.stages.relate.prune import prune_lines
@@ -248,11 +248,8 @@ def _is_lid(piping: Piping, body: Body, ends: Ends, rows: Sequence[int]) -> bool
 
 def _extent(piping: Piping, body: Body, ends: Ends, row: int) -> tuple[float, float]:
     """How long a body is along the axis of an end, and how far it reaches from it [m]."""
-    point, axis = ends.point[row], ends.direction[row]
-    offset = np.concatenate([piping.given.parts.scene.mesh(part)[0] for part in body.parts]) - point
-    along = offset @ axis
-    across = np.linalg.norm(offset - along[:, None] * axis, axis=1)
-    return float(np.ptp(along)) if len(along) else 0.0, float(across.max(initial=0.0))
+    points = np.concatenate([piping.given.parts.scene.mesh(part)[0] for part in body.parts])
+    return extent_about(ends, row, points)
 
 
 def _slimness(piping: Piping, body: Body, ends: Ends, rows: Sequence[int]) -> float | None:

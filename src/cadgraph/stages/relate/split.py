@@ -11,6 +11,7 @@ import numpy as np
 from cadgraph.model.parts import Parts
 from cadgraph.stages.relate.attach import Attachments, flat_contacts
 from cadgraph.stages.relate.flanged import bodies_between
+from cadgraph.stages.relate.joint import extent_about
 from cadgraph.stages.relate.piping import Group, Piping
 
 __all__ = ["split_groups"]
@@ -36,15 +37,17 @@ def split_groups(piping: Piping, groups: Sequence[Group]) -> list[Group]:
         mounts.setdefault(mount.part, []).append(mount.row)
     outcome = []
     for group in groups:
-        own = {part: mounts[part] for part in group.parts if part in mounts}
-        cores = _cores(piping, group, own) if group.unit_type in _SPLIT and _may_be_several(piping, group, own) else []
-        outcome += _divide(piping, group, cores) if len(cores) > 1 else [group]
+        outcome += _split(piping, group, {part: mounts[part] for part in group.parts if part in mounts})
     return sorted(outcome, key=lambda group: group.parts)
 
 
-def _may_be_several(piping: Piping, group: Group, own: Mapping[int, Sequence[int]]) -> bool:
-    """Whether a line ends at a group, and at least two of its parts are at a line's end or at another unit."""
-    return bool(own) and len(own.keys() | {a for a, _ in _beyond(piping, group)}) > 1
+def _split(piping: Piping, group: Group, own: Mapping[int, Sequence[int]]) -> list[Group]:
+    """The devices of a group, by its parts at which lines end: itself unless it may hold several, and does."""
+    beyond = _beyond(piping, group)
+    if group.unit_type not in _SPLIT or not own or len(own.keys() | {a for a, _ in beyond}) < 2:
+        return [group]
+    cores = _cores(piping, group, own, beyond)
+    return _divide(piping, group, cores) if len(cores) > 1 else [group]
 
 
 @dataclass(frozen=True)
@@ -68,23 +71,28 @@ class _Bodies:
         return len(self.own.get(body, ())) + self.flanged.get(body, 0)
 
 
-def _cores(piping: Piping, group: Group, own: Mapping[int, Sequence[int]]) -> list[int]:
+def _cores(
+    piping: Piping, group: Group, own: Mapping[int, Sequence[int]], beyond: Sequence[tuple[int, int]]
+) -> list[int]:
     """The bodies that are devices of their own.
 
     Args:
         piping: what joins what.
         group: connected parts.
         own: rows of the ends of lines at each of these parts.
+        beyond: its parts and those of other units that are near each other.
     """
-    bodies = _bodies_of(piping, group, own)
+    bodies = _bodies_of(piping, group, own, beyond)
     cores = [body for body in sorted(bodies.rows) if _is_core(piping, bodies, body)]
     return cores if cores or group.unit_type != "gauge" else _feet(group, own, bodies.holders)
 
 
-def _bodies_of(piping: Piping, group: Group, own: Mapping[int, Sequence[int]]) -> _Bodies:
+def _bodies_of(
+    piping: Piping, group: Group, own: Mapping[int, Sequence[int]], beyond: Sequence[tuple[int, int]]
+) -> _Bodies:
     """What stands in a line: where one ends, and what is flanged to it between."""
     given, found = piping.given, piping.joints
-    pairs, beyond = _pairs_within(group.parts, given.neighbors), _beyond(piping, group)
+    pairs = _pairs_within(group.parts, given.neighbors)
     others = {b for _, b in beyond}
     near = [*pairs, *((min(pair), max(pair)) for pair in beyond)]
     flat = flat_contacts(given.parts, given.contacts, near, given.config.cluster.eps)
@@ -112,8 +120,7 @@ def _is_whole(piping: Piping, body: int, row: int) -> bool:
     if group is None or piping.roles.names[body] not in (None, piping.given.vocabulary.groups[group].names[0]):
         return False
     ends = piping.joints.ends
-    vertices, _ = piping.given.parts.scene.mesh(body)
-    along = float(np.ptp(vertices @ ends.direction[row])) if len(vertices) else 0.0
+    along, _ = extent_about(ends, row, piping.given.parts.scene.mesh(body)[0])
     return along >= _WHOLE * 2 * float(ends.radius[row])
 
 
@@ -167,10 +174,7 @@ def _bodies_under(pairs: Sequence[tuple[int, int]], bodies: Collection[int]) -> 
 
 def _reach(parts: Parts, part: int, rows: Sequence[int], found: Attachments) -> float:
     """The greatest distance of a part from the axis of the line at an end [m]."""
-    vertices, _ = parts.scene.mesh(part)
-    offset = vertices - found.ends.point[rows[0]]
-    axis = found.ends.direction[rows[0]]
-    return float(np.linalg.norm(offset - (offset @ axis)[:, None] * axis, axis=1).max(initial=0.0))
+    return extent_about(found.ends, rows[0], parts.scene.mesh(part)[0])[1]
 
 
 def _stands_out(parts: Parts, body: int, rows: Sequence[int], found: Attachments) -> bool:

@@ -7,12 +7,12 @@ import numpy as np
 from cadgraph.model.scene import Floats
 from cadplants.builder.device import families_of
 from cadplants.builder.dials import CASE, STEM
+from cadplants.builder.melting import FACETS, FACETS_TEXT, Melting, sides_of
 from cadplants.builder.params import Params, among, between, chance, given, nested, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.instruments.flow import NAME, FlowMeter
 from cadplants.families.instruments.pieces import BEFORE, FRONT, Gauge
 from cadplants.families.instruments.sight import SIGHT_GLASS, SightGlass
-from cadplants.families.valves.kit_parts import FACETS, sides_of
 from cadplants.families.valves.parts import bend
 from cadplants.model.family import Model
 from cadplants.model.standards import sizes_between
@@ -29,7 +29,7 @@ _HEAD = "transmitter"
 class _Stem(Params):
     """A stem about z: a thread, a hexagon or square, a rod."""
 
-    facets: int = given(0, "sides of what is round; 0: as the style has them")
+    facets: int = given(0, FACETS_TEXT)
     radius: float = between(0.004, 0.011, "of the rod", "m")
     tall: float = between(0.015, 0.09, "height", "m")
     form: str = among(("hexagon", "hexagon", "square", "collar", "plain"), "what is on the rod")
@@ -50,22 +50,17 @@ class _Stem(Params):
         return solids
 
 
-class _Melting(Gauge):
+class _PlainGauge(Melting, Gauge):
     """An instrument that may be one mesh."""
 
     melted: bool = chance(0.4, "all of it is one mesh")
-    facets: int = among(FACETS, "sides of what is round; 0: as the style has them")
-
-    def n(self, t: Table, radius: float) -> int:
-        """Sides of a circle of a radius [m]."""
-        return sides_of(t, radius, self.facets)
 
 
 def _stem() -> _Stem:
     return nested(_Stem, "stem", fixed=lambda p: {"facets": p.facets})
 
 
-class BoxOnStem(_Melting, name="transmitter/plain box on stem", label=_HEAD, bundle=_HEAD, weight=3):
+class BoxOnStem(_PlainGauge, name="transmitter/plain box on stem", label=_HEAD, bundle=_HEAD, weight=3):
     """A pressure switch or a small transmitter: a stem, maybe a cell, a box with a lid, a gland or a plug aside."""
 
     stem: _Stem = _stem()
@@ -121,7 +116,7 @@ class BoxOnStem(_Melting, name="transmitter/plain box on stem", label=_HEAD, bun
         return along(axis, merge(nut), *place)
 
 
-class HeadOnStem(_Melting, name="transmitter/plain head on stem", label=_HEAD, bundle=_HEAD, weight=3):
+class HeadOnStem(_PlainGauge, name="transmitter/plain head on stem", label=_HEAD, bundle=_HEAD, weight=3):
     """A transmitter in few sides: a stem, a neck, a drum, can, pot or ball with a lid, a gland aside."""
 
     stem: _Stem = _stem()
@@ -165,7 +160,7 @@ class HeadOnStem(_Melting, name="transmitter/plain head on stem", label=_HEAD, b
 class _PlainDial(Params):
     """A round case about z in few sides: a plain disc, one with a rim, a dished back; a face, a needle, a glass."""
 
-    facets: int = given(0, "sides of what is round; 0: as the style has them")
+    facets: int = given(0, FACETS_TEXT)
     size: float = among((0.03, 0.04, 0.05, 0.063, 0.08, 0.1, 0.1, 0.16), "diameter", "m")
     deep: float = between(0.18, 0.6, "depth / diameter")
     form: str = among(("disc", "rim", "rim", "dished", "bezel"), "its case")
@@ -211,7 +206,7 @@ def _dial() -> _PlainDial:
     return nested(_PlainDial, "dial", fixed=lambda p: {"facets": p.facets})
 
 
-class PlainDial(_Melting, name="gauge/plain dial", weight=4):
+class PlainDial(_PlainGauge, name="gauge/plain dial", weight=4):
     """A manometer in few sides: a dial upright on a stem, maybe on a U or a ring of bent pipe."""
 
     stem: _Stem = _stem()
@@ -249,7 +244,7 @@ class PlainDial(_Melting, name="gauge/plain dial", weight=4):
         return bend([*corners, (4 * bow, 0, 2.2 * low)], 0.9 * bow, 4)
 
 
-class PlainThermometer(_Melting, name="thermometer/plain dial", weight=3):
+class PlainThermometer(_PlainGauge, name="thermometer/plain dial", weight=3):
     """A bimetal thermometer in few sides: its dial across the stem, upright or tilted on it, maybe over a well."""
 
     stem: _Stem = _stem()
@@ -282,7 +277,7 @@ class PlainThermometer(_Melting, name="thermometer/plain dial", weight=3):
 class GlassBetweenBlocks(FlowMeter, name="flow meter/glass between blocks", sizes=sizes_between(15, 65), weight=3):
     """A rotameter: a straight or conical glass between two end blocks, a float, maybe tie rods, a scale, a shield."""
 
-    facets: int = among(FACETS, "sides of what is round; 0: as the style has them")
+    facets: int = among(FACETS, FACETS_TEXT)
     corners: int = among((6, 6, 4, 8, 0), "sides of its end blocks; 0: round")
     long: float = between(6.0, 16.0, "(length - 60 mm) / radius of the pipe")
     block: float = between(0.1, 0.24, "length of a block / length")
@@ -331,11 +326,12 @@ class GlassBetweenBlocks(FlowMeter, name="flow meter/glass between blocks", size
             t.add("gauge needle", turned(bob, min(n, 12)), rod((0, 0, low), (0, 0, high), 0.06 * glass, 6), of="trim")
 
 
-class TubeBetweenEnds(SightGlass, name="sight glass/tube between ends", sizes=sizes_between(15, 100), weight=3):
+class TubeBetweenEnds(
+    Melting, SightGlass, name="sight glass/tube between ends", sizes=sizes_between(15, 100), weight=3
+):
     """A sight glass in a line: a tube of glass between ferrules, discs or blocks, with bars or without."""
 
     melted: bool = chance(0.3, "all of it is one mesh")
-    facets: int = among(FACETS, "sides of what is round; 0: as the style has them")
     form: str = among(("ferrules", "ferrules", "discs", "hexagons", "blocks"), "its ends")
     long: float = between(1.6, 5.0, "(length - 50 mm) / radius of the pipe")
     glass: float = between(0.95, 1.35, "radius of the glass / of the pipe")
@@ -347,7 +343,7 @@ class TubeBetweenEnds(SightGlass, name="sight glass/tube between ends", sizes=si
         r, line, bore = t.pipe.radius, t.along("x"), bore_of(self.dn, t.style)
         length = round(0.05 + self.long * r, 6)
         rim, thick, glass = max(self.rim, self.glass + 0.15) * r, self.thick * length, self.glass * r
-        n, end = sides_of(t, rim, self.facets), 0.26 * length
+        n, end = self.n(t, rim), 0.26 * length
         neck = max(1.06 * r, 0.8 * glass)
         shapes = {
             "ferrules": outline(rim, 0, rim, 0.5 * thick, neck, thick, neck, end - thick, rim, end - thick, rim, end),

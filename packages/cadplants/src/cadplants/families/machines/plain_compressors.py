@@ -7,7 +7,7 @@ import numpy as np
 from cadplants.builder.device import families_of
 from cadplants.builder.params import among, between, chance, nested, whole
 from cadplants.builder.table import Table
-from cadplants.families.machines.plain_parts import Faceted, PlainMotor, PlainPort
+from cadplants.families.machines.plain_parts import Faceted, PlainMotor, PlainPort, port_of
 from cadplants.model.family import Model, Port
 from cadplants.solids.mesh_ops import Solid, extrude, moved
 from cadplants.solids.polygon import rounded_rectangle
@@ -43,7 +43,7 @@ class _Cabinet(_Compressor, sizes=(20, 25, 32, 40, 50)):
     sides: bool = chance(0.5, "a louvre at its side too", when=lambda p: p.slats)
     roof: str = among(("none", "cowl", "fan", "duct"), "what is on the roof")
     panel: bool = chance(0.7, "a panel in front")
-    stub: PlainPort = nested(PlainPort, "mouth", fixed=lambda p: {"dn": p.dn})
+    stub: PlainPort = port_of(lambda p: p.dn, "mouth")
     level: float = between(0.5, 0.9, "height of the mouth / of the cabinet")
 
     def build(self, t: Table) -> Model:
@@ -127,7 +127,7 @@ class _OnReceiver(_Compressor, sizes=(15, 20, 25)):
     long: float = between(1.8, 3.2, "length of the motor / its radius")
     motor: PlainMotor = nested(PlainMotor, "motor")
     piped: bool = chance(0.7, "a pipe from the head down to the receiver")
-    stub: PlainPort = nested(PlainPort, "mouth", fixed=lambda p: {"dn": p.dn})
+    stub: PlainPort = port_of(lambda p: p.dn, "mouth")
 
     def build(self, t: Table) -> Model:
         r, n = self.radius, self.n(t, self.radius)

@@ -22,7 +22,7 @@ from cadplants.solids.transforms import at, looking, spun
 
 __all__ = [
     "BOLTED", "Faceted", "Ferrule", "PlainBed", "PlainGuard", "PlainMotor", "PlainPort", "PlainPump", "Threaded",
-    "arched", "faced", "port_of",
+    "arched", "built_ports", "faced", "port_of",
 ]  # fmt: skip
 
 BOLTED = ("flange", "flange", "disc", "hub")
@@ -88,6 +88,14 @@ class PlainPort(Params):
             cone = [(r, -min(reach, 2.2 * thick)), (0.62 * outer + 0.38 * r, -0.95 * thick)]
             return [neck, turned(cone, n, bore=bore), ring(bore, outer, -thick, 0.0, n)]
         return [neck]
+
+
+def built_ports(
+    t: Table, mouths: Sequence[PlainPort], spots: Sequence[Sequence[float]], way: Sequence[float], reach: float, n: int
+) -> tuple[list[Solid], list[Port]]:
+    """The solids and ports of mouths at some places that look one way; see ``PlainPort.build``."""
+    made = [mouth.build(t, spot, way, reach, n) for mouth, spot in zip(mouths, spots, strict=True)]
+    return [solid for solid, _ in made], [port for _, port in made]
 
 
 class Threaded(PlainPort):

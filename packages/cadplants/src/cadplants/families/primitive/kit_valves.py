@@ -6,19 +6,10 @@ import numpy as np
 
 from cadplants.builder.device import Device, families_of
 from cadplants.builder.draws import of_form
+from cadplants.builder.melting import FACETS, FACETS_TEXT, Melting, Piece, put_pieces, sides_of
 from cadplants.builder.params import among, between, chance, nested
 from cadplants.builder.table import Table, outline
-from cadplants.families.valves.kit_parts import (
-    FACETS,
-    Bonnet,
-    FlangedBody,
-    Grip,
-    Piece,
-    Rim,
-    put_pieces,
-    screwed_body,
-    sides_of,
-)
+from cadplants.families.valves.kit_parts import Bonnet, FlangedBody, Grip, Rim, screwed_body
 from cadplants.model.family import Family, Model
 from cadplants.model.plant import Turning
 from cadplants.model.standards import sizes_between
@@ -38,15 +29,10 @@ def _corners() -> int:
     return among((6, 6, 8, 0), "sides of its ends; 0: round")
 
 
-class _Kit(Device, place="inline", group="Valve assembly", label="valve", bundle=_BODY, sizes=_MIDDLE):
+class _Kit(Melting, place="inline", group="Valve assembly", label="valve", bundle=_BODY, sizes=_MIDDLE):
     """A valve of an asset pack."""
 
     melted: bool = chance(0.65, "all of it is one mesh")
-    facets: int = among(FACETS, "sides of what is round; 0: as the style has them")
-
-    def n(self, t: Table, radius: float) -> int:
-        """Sides of a circle of a radius [m]."""
-        return sides_of(t, radius, self.facets)
 
     def put(self, t: Table, length: float, pieces: list[Piece]) -> None:
         """Puts pieces about the middle of a line's stretch down [m]."""
@@ -333,7 +319,7 @@ class FlangedLeg(
 ):  # fmt: skip
     """A Y strainer in one mesh: a flanged body, a slanting or upright leg, a lid, maybe a plug."""
 
-    facets: int = among(FACETS, "sides of what is round; 0: as the style has them")
+    facets: int = among(FACETS, FACETS_TEXT)
     mated: bool = chance(0.6, "the line has flanges against its own")
     body: FlangedBody = nested(FlangedBody, "body", fixed=lambda p: {"dn": p.dn})
     slant: float = among((0.65, 0.7, 0.75, 0.75, 0.8, 1.0), "of the leg from upright / half a turn")
@@ -371,13 +357,12 @@ class FlangedLeg(
 
 
 class SafetyAngle(
-    Device, name="relief valve/angle in one", place="head", group="Valve assembly", label="valve", bundle=_BODY,
+    Melting, name="relief valve/angle in one", place="head", group="Valve assembly", label="valve", bundle=_BODY,
     sizes=sizes_between(15, 150), weight=1.5,
 ):  # fmt: skip
     """A flanged safety valve in one mesh: inlet, outlet aside, a tall bonnet, a cap, maybe a lever."""
 
     melted: bool = chance(0.7, "all of it is one mesh")
-    facets: int = among(FACETS, "sides of what is round; 0: as the style has them")
     reach: float = between(0.65, 1.0, "from the face to the axis / outside of the flange")
     swell: float = between(1.2, 1.7, "radius of the body / of the pipe")
     outlet: float = between(1.0, 1.3, "size of the outlet / of the inlet")
@@ -390,7 +375,7 @@ class SafetyAngle(
     def build(self, t: Table) -> Model:
         r, size = t.pipe.radius, t.flange
         reach, b, rim, thick = self.reach * size.outer, self.swell * r + 0.003, size.outer / 2, size.thickness
-        n, out = sides_of(t, rim, self.facets), self.outlet
+        n, out = self.n(t, rim), self.outlet
         inlet = turned(outline(rim, 0.0, rim, thick, 1.15 * r, thick, 1.15 * r, reach), n)
         branch = turned(
             outline(1.1 * r * out, 0, 1.1 * r * out, reach - thick, rim * out, reach - thick, rim * out, reach), n

@@ -2,53 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
-
 import numpy as np
 
 from cadplants.builder.draws import of_form
+from cadplants.builder.melting import Piece
 from cadplants.builder.params import Params, among, between, chance, given, whole
 from cadplants.builder.table import Table, outline
-from cadplants.model.plant import Turning
 from cadplants.parts.valve_body import bore_of
 from cadplants.solids.mesh_ops import Solid, extrude, moved
 from cadplants.solids.primitives import BOTH, along, around, ball, box, cylinder, hexagon, ring, rod, torus, turned
 from cadplants.solids.transforms import at, spun
 
-__all__ = ["FACETS", "Bonnet", "FlangedBody", "Grip", "Piece", "Rim", "put_pieces", "screwed_body", "sides_of"]
-
-FACETS = (0, 0, 0, 0, 6, 8, 10, 12, 16)
-"""Sides of what is round in asset packs; 0: as the style has them."""
-
-
-@dataclass(frozen=True)
-class Piece:
-    """A piece of a device that may be melted into one mesh with the others.
-
-    Args:
-        name: of the vocabulary.
-        solids: in the device's frame.
-        turns: what of it turns.
-    """
-
-    name: str
-    solids: Sequence[Solid]
-    turns: Turning | None = None
-
-
-def sides_of(t: Table, radius: float, facets: int) -> int:
-    """Sides of a circle of a radius [m]: as many as are asked for, as the style has them where that is 0."""
-    return facets or t.n(radius, 6)
-
-
-def put_pieces(t: Table, pieces: Sequence[Piece], melted: bool, whole_of: str = "valve", of: str = "valve") -> None:
-    """Puts pieces down, melted into one mesh or each by itself; ``of``: material of the one mesh."""
-    if melted:
-        t.bundled(whole_of).add(whole_of, *(solid for piece in pieces for solid in piece.solids), of=of)
-        return
-    for piece in pieces:
-        t.add(piece.name, *piece.solids, turns=piece.turns)
+__all__ = ["Bonnet", "FlangedBody", "Grip", "Rim", "screwed_body"]
 
 
 class Rim(Params):

@@ -9,9 +9,9 @@ import numpy as np
 from cadplants.builder.device import Device, families_of
 from cadplants.builder.dials import CASE, STEM, Dial
 from cadplants.builder.draws import of_form
+from cadplants.builder.melting import FACETS, FACETS_TEXT, Melting, sides_of
 from cadplants.builder.params import Params, among, between, chance, given, nested, whole
 from cadplants.builder.table import Table, outline
-from cadplants.families.valves.kit_parts import FACETS, sides_of
 from cadplants.families.valves.threaded import hex_end
 from cadplants.families.valves.valve import Valve
 from cadplants.model.family import Model
@@ -33,7 +33,7 @@ class _Block(Params):
     """A block along x with two ports: square, round or eight-sided from above."""
 
     dn: int = given(0, "nominal size", "mm")
-    facets: int = given(0, "sides of what is round; 0: as the style has them")
+    facets: int = given(0, FACETS_TEXT)
     form: str = among(("box", "box", "rounded", "round", "octagon"), "its outline from above")
     wide: float = between(1.8, 2.8, "(half its length - 12 mm) / radius of the pipe")
     deep: float = between(0.8, 1.25, "depth / length")
@@ -194,11 +194,10 @@ def _block() -> _Block:
     return nested(_Block, "block", fixed=lambda p: {"dn": p.dn, "facets": p.facets})
 
 
-class AirRegulator(Valve, name="pressure reducing valve/air regulator", sizes=_SIZES, weight=3):
+class AirRegulator(Melting, Valve, name="pressure reducing valve/air regulator", sizes=_SIZES, weight=3):
     """A regulator of compressed air: a block, a hood with a knob, a plug below, a small gauge in front."""
 
     melted: bool = chance(0.25, "all of it, its gauge too, is one mesh")
-    facets: int = among(FACETS, "sides of what is round; 0: as the style has them")
     block: _Block = _block()
     knob: _Knob = nested(_Knob, "hood and knob")
     under: float = between(0.2, 1.2, "depth of the plug below / half the block")
@@ -218,7 +217,7 @@ class AirRegulator(Valve, name="pressure reducing valve/air regulator", sizes=_S
     def _put(self, t: Table, length: float) -> None:
         """Puts its pieces down, of a length [m]."""
         block = self.block
-        half, end, n = block.half, block.end, sides_of(t, block.half, self.facets)
+        half, end, n = block.half, block.end, self.n(t, block.half)
         mid, ends = t.at(length / 2), (block.port(t, 0.0, 1.2 * end), block.port(t, length - 1.2 * end, length))
         plug = turned(outline(0.5 * half, -block.bottom - self.under * half, 0.65 * half, -block.bottom + 0.002), n)
         t.add(_BODY, *ends, *(moved(one, at(length / 2)) for one in (block.solid(t), plug)))
@@ -230,7 +229,7 @@ class AirRegulator(Valve, name="pressure reducing valve/air regulator", sizes=_S
 class _Unit(Device, place="inline", group="Equipment", label=_FILTER, bundle=_FILTER, sizes=_SIZES):
     """A unit with a filter."""
 
-    facets: int = among(FACETS, "sides of what is round; 0: as the style has them")
+    facets: int = among(FACETS, FACETS_TEXT)
     block: _Block = _block()
     bowl: _Bowl = nested(_Bowl, "bowl")
 

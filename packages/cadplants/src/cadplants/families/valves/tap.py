@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from cadplants.builder.device import Device, families_of
+from cadplants.builder.device import families_of
 from cadplants.builder.draws import of_form
+from cadplants.builder.melting import Melting, Piece, put_pieces
 from cadplants.builder.params import Params, among, between, chance, given, nested
 from cadplants.builder.table import Table, outline
-from cadplants.families.valves.kit_parts import FACETS, Grip, Piece, Rim, put_pieces, sides_of
+from cadplants.families.valves.kit_parts import Grip, Rim
 from cadplants.families.valves.parts import bend
 from cadplants.model.family import Model
 from cadplants.model.plant import Turning
@@ -22,16 +23,11 @@ __all__ = ["TAPS"]
 _BODY = "valve body"
 
 
-class _Small(Device, place="tap", group="Valve assembly", label="valve", bundle=_BODY, sizes=(15, 20, 25)):
+class _Small(Melting, place="tap", group="Valve assembly", label="valve", bundle=_BODY, sizes=(15, 20, 25)):
     """A small valve upright on an outlet."""
 
     melted: bool = chance(0.45, "all of it is one mesh")
-    facets: int = among(FACETS, "sides of what is round; 0: as the style has them")
     corners: int = among((6, 6, 8, 0), "sides of its wrench end; 0: round")
-
-    def n(self, t: Table, radius: float) -> int:
-        """Sides of a circle of a radius [m]."""
-        return sides_of(t, radius, self.facets)
 
     def end(self, wide: float, low: float, high: float, n: int) -> Solid:
         """Its wrench end about z, this wide across, between two heights [m]."""

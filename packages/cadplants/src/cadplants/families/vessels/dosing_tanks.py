@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from cadplants.builder.device import families_of
-from cadplants.builder.params import among, between, chance, nested, whole
+from cadplants.builder.params import among, between, chance, whole
 from cadplants.builder.table import Table, outline
-from cadplants.families.machines.plain_parts import Faceted, PlainPort
+from cadplants.families.machines.plain_parts import Faceted, PlainPort, port_of
 from cadplants.model.family import Model
 from cadplants.solids.mesh_ops import Solid, extrude, moved, revolve, weld
 from cadplants.solids.polygon import rounded_rectangle
@@ -38,7 +38,7 @@ class Dosing(
     cover: bool = chance(0.4, "a flat cover all over it")
     aside: bool = chance(0.5, "the lid is off the middle")
     gripped: bool = chance(0.5, "grips round the lid")
-    mouth: PlainPort = nested(PlainPort, "mouth", fixed=lambda p: {"dn": p.dn})
+    mouth: PlainPort = port_of(lambda p: p.dn, "mouth")
     level: float = between(0.06, 0.25, "height of the mouth / of the drum")
     on_top: str = among(("none", "pump", "pump", "stirrer"), "what stands on it")
     scale: bool = chance(0.3, "a gauge of its level along it")

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from cadplants.builder.device import families_of
-from cadplants.builder.params import among, between, chance, nested, whole
+from cadplants.builder.params import among, between, chance, whole
 from cadplants.builder.table import Table, outline
-from cadplants.families.machines.plain_parts import Faceted, PlainPort
+from cadplants.families.machines.plain_parts import Faceted, PlainPort, built_ports, port_of
 from cadplants.model.family import Model, Port
 from cadplants.solids.mesh_ops import Solid, extrude, moved
 from cadplants.solids.polygon import rounded_rectangle
@@ -20,8 +20,8 @@ _NAME = "boiler"
 class _Boiler(Faceted, place="floor", group="Equipment", label=_NAME, bundle=_NAME, sizes=(20, 25, 32, 40, 50, 65, 80)):
     """A boiler of plain shapes, its front towards -x."""
 
-    flow: PlainPort = nested(PlainPort, "flow", fixed=lambda p: {"dn": p.dn})
-    back: PlainPort = nested(PlainPort, "return", fixed=lambda p: {"dn": p.dn})
+    flow: PlainPort = port_of(lambda p: p.dn, "flow")
+    back: PlainPort = port_of(lambda p: p.dn, "return")
     burner: str = among(("box", "drum", "box and drum", "gun", "none"), "form of the burner")
     fire: float = between(0.12, 0.28, "half the size of the burner / height")
     flue: float = between(0.05, 0.14, "radius of the flue / height")
@@ -66,12 +66,8 @@ class _Boiler(Faceted, place="floor", group="Equipment", label=_NAME, bundle=_NA
         self, t: Table, body: list[Solid], spots: tuple[tuple[float, float, float], ...], dip: float
     ) -> list[Port]:
         """Puts the body down with two mouths up at places; their ports."""
-        n, solids, ports = self.n(t, t.pipe.radius), list(body), []
-        for mouth, spot in zip((self.flow, self.back), spots, strict=True):
-            solid, port = mouth.build(t, spot, (0, 0, 1), dip, n)
-            solids.append(solid)
-            ports.append(port)
-        t.add(_NAME, *solids, of="tank")
+        mouths, ports = built_ports(t, (self.flow, self.back), spots, (0, 0, 1), dip, self.n(t, t.pipe.radius))
+        t.add(_NAME, *body, *mouths, of="tank")
         return ports
 
 

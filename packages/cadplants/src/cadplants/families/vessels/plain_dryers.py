@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from cadplants.builder.device import families_of
-from cadplants.builder.params import among, between, chance, nested, whole
+from cadplants.builder.params import among, between, chance, whole
 from cadplants.builder.table import Table
 from cadplants.families.machines.plain_compressors import louvres
-from cadplants.families.machines.plain_parts import Faceted, PlainPort
+from cadplants.families.machines.plain_parts import Faceted, PlainPort, built_ports, port_of
 from cadplants.model.family import Model, Port
 from cadplants.solids.mesh_ops import Solid, extrude, moved
 from cadplants.solids.polygon import rounded_rectangle
@@ -23,16 +23,15 @@ _NAME = "separator"
 class _Dryer(Faceted, place="floor", group="Equipment", label=_NAME, bundle=_NAME, sizes=(15, 20, 25, 32, 40, 50)):
     """A dryer of compressed air of plain shapes."""
 
-    inlet: PlainPort = nested(PlainPort, "inlet", fixed=lambda p: {"dn": p.dn})
-    outlet: PlainPort = nested(PlainPort, "outlet", fixed=lambda p: {"dn": p.dn})
+    inlet: PlainPort = port_of(lambda p: p.dn, "inlet")
+    outlet: PlainPort = port_of(lambda p: p.dn, "outlet")
 
     def mouths(
         self, t: Table, spots: tuple[tuple[float, float, float], ...], way: tuple[int, int, int], reach: float
     ) -> tuple[list[Solid], list[Port]]:
         """Inlet and outlet at two places; solids and ports."""
         n = self.n(t, t.pipe.radius)
-        made = [one.build(t, spot, way, reach, n) for one, spot in zip((self.inlet, self.outlet), spots, strict=True)]
-        return [solid for solid, _ in made], [port for _, port in made]
+        return built_ports(t, (self.inlet, self.outlet), spots, way, reach, n)
 
 
 class _Refrigerated(_Dryer):
