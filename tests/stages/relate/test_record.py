@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import shapes
-from piping import GAUGE, PIPE, STEEL, VALVE, R, gauge_mesh, pipe, ring, turned, valve_mesh
+from piping import GAUGE, PIPE, STEEL, VALVE, R, gauge_mesh, merged, pipe, ring, turned, valve_mesh
 from sketch import Sketch, X, around, block
 
 
@@ -84,6 +84,17 @@ def test_a_gauge_that_no_line_ends_at_is_on_the_side_that_it_touches():
     assert (joint.kind, joint.first, joint.second, joint.made) == ("side", 1, 0, True)
     assert joint.reasons == ("no line ends at it, and it touches this one",)
     assert np.allclose(joint.point, (1, 0, 0), atol=0.01)
+
+
+def test_a_gauge_near_the_ends_of_a_short_spool_is_on_its_side_once_these_join_others():
+    sketch = Sketch()
+    flange = shapes.cylinder(0.1, 0.02)
+    spool = merged(pipe((1, 0, 0), (1.4, 0, 0)), *(turned(flange, (x, 0, 0), X) for x in (1.01, 1.39)))
+    sketch.add(spool, PIPE, "pipe")
+    sketch.pipe((0, 0, 0), (1, 0, 0))
+    sketch.pipe((1.4, 0, 0), (2.4, 0, 0))
+    sketch.add(gauge_mesh((1.2, 0, R - 0.01)), GAUGE, "gauge")
+    assert ("side", 3, 0, True) in joints(sketch)
 
 
 def test_what_is_no_gauge_is_joined_to_no_side():

@@ -38,9 +38,9 @@ def body(length, outer=0.08):
     )
 
 
-def operator(name, length):
+def operator(name, length, wheel=0.1):
     if name == "handwheel":
-        return turned(shapes.tube(0.1, 0.085, 0.015), (length / 2, 0, 0.25), UP)
+        return turned(shapes.tube(wheel, 0.85 * wheel, 0.015), (length / 2, 0, 0.25), UP)
     return shapes.box((0.2, 0.02, 0.01), (length / 2 + 0.08, 0, 0.12))
 
 
@@ -80,8 +80,31 @@ def test_gate_and_globe_valves_of_one_length_stay_open_with_both_as_guesses():
 
 @pytest.mark.parametrize(("off", "stated"), [(0.009, True), (0.011, False)])
 def test_a_length_is_one_of_a_table_within_10_mm(off, stated):
-    found = kinds([body(0.33 - off), operator("handwheel", 0.33)], ["valve body", "handwheel"], 0.33 - off, 250)
+    meshes = [body(0.33 - off), operator("handwheel", 0.33, wheel=0.2)]
+    found = kinds(meshes, ["valve body", "handwheel"], 0.33 - off, 250)
     assert (found[0][1] >= SURE_FROM) is stated
+
+
+@pytest.mark.parametrize(("wheel", "stated"), [(0.06, True), (0.035, False)])
+def test_a_small_wheel_may_set_a_spring(wheel, stated):
+    found = kinds([body(0.203), operator("handwheel", 0.203, wheel)], ["valve body", "handwheel"], 0.203, 50)
+    assert found[0][0] == "globe valve"
+    assert (found[0][1] >= SURE_FROM) is stated
+
+
+@pytest.mark.parametrize(("wheel", "stated"), [(0.16, True), (0.14, False)])
+def test_wheels_of_large_valves_are_smaller_for_their_size(wheel, stated):
+    found = kinds([body(0.33), operator("handwheel", 0.33, wheel)], ["valve body", "handwheel"], 0.33, 250)
+    assert (found[0][1] >= SURE_FROM) is stated
+
+
+def test_a_housing_on_a_housing_under_a_wheel_may_hold_a_spring():
+    diaphragm = turned(shapes.cylinder(0.07, 0.02), (0.1, 0, 0.09), UP)
+    housing = turned(shapes.cylinder(0.035, 0.1), (0.1, 0, 0.15), UP)
+    names = ["valve body", "handwheel", "valve bonnet", "valve bonnet"]
+    meshes = [body(0.203), operator("handwheel", 0.203, wheel=0.06), diaphragm, housing]
+    assert kinds(meshes[:3], names[:3], 0.203, 50)[0][1] >= SURE_FROM
+    assert kinds(meshes, names, 0.203, 50)[0][1] < SURE_FROM
 
 
 def test_a_cover_that_nothing_turns_is_a_check_valve_but_not_beside_a_stem():

@@ -165,7 +165,7 @@ def attach_lines(
     faces = offer_faces(ends, around, ahead)
     settled = settle_faces(faces)
     loose = {row for row in range(len(ends.part)) if row not in settled}
-    mounts, sides = _mounts(parts, contacts, lines, solid, set(feet), ends, loose, ahead)
+    mounts, sides, spare = _mounts(parts, contacts, lines, solid, set(feet), ends, loose, ahead)
     near = _neighbors(contacts, lines)
     singles = {
         row: [
@@ -178,6 +178,9 @@ def attach_lines(
         singles = _with_witness(parts, lines, solid, ends, singles, ahead, around)
     decision = decide_joints(faces, singles, settled)
     doubled = _double(ends, decision.joined, near, bridge)
+    mounted = {offer.other for offer in decision.joined.values() if offer.kind == "mount"}
+    # On a short spool a gauge may stand near an end that then joins another.
+    sides = (*sides, *(side for side in spare if side.solid not in mounted))
     return _attached(ends, decision, doubled, sides)
 
 
@@ -371,8 +374,10 @@ def _mounts(
     ends: Ends,
     loose: set[int],
     ahead: EndsAhead,
-) -> tuple[dict[int, list[Offer]], tuple[Side, ...]]:
-    """The solids that each loose end may be at; and solids at the sides of lines."""
+) -> tuple[dict[int, list[Offer]], tuple[Side, ...], tuple[Side, ...]]:
+    """The solids that each loose end may be at; solids at the sides of lines; and the sides of lines that feet touch
+    near an end, where they are if that end joins something else.
+    """
     tight: list[int] = []
     wide: list[int] = []
     sides = []
@@ -392,26 +397,25 @@ def _mounts(
         *_touches(parts, contacts, lines, tight, 2 * _TIGHT),
         *_touches(parts, contacts, lines, wide, float(contacts.distance.max(initial=0.0)) + _TIGHT),
     ]
-    offers, beside = _offers_at(touches, ends, loose, ahead)
-    sides += [_side(lines[one.part], one.part, one.solid, one.place, one.gap) for one in beside]
-    return offers, tuple(sides)
+    offers = [_offers_at(touch, ends, ahead) for touch in touches]
+    at_ends: dict[int, list[Offer]] = {}
+    for offer in (offer for some in offers for offer in some if offer.row in loose):
+        at_ends.setdefault(offer.row, []).append(offer)
+    beside = [_side_of(touch, lines) for touch, some in zip(touches, offers, strict=True) if not some]
+    spare = [
+        _side_of(touch, lines) for touch, some in zip(touches, offers, strict=True) if some and touch.solid in feet
+    ]
+    return at_ends, (*sides, *beside), tuple(spare)
 
 
-def _offers_at(
-    touches: Sequence[_Touch], ends: Ends, loose: Collection[int], ahead: EndsAhead
-) -> tuple[dict[int, list[Offer]], list[_Touch]]:
-    """The offers of loose ends at solids, and where lines touch solids without an end there."""
-    offers: dict[int, list[Offer]] = {}
-    beside = []
-    for touch in touches:
-        rows = ends.of_part.get(touch.part, ())
-        found = [offer for end in rows if (offer := _offer(ends, end, touch, ahead)) is not None]
-        if not found:
-            beside.append(touch)
-        for offer in found:
-            if offer.row in loose:
-                offers.setdefault(offer.row, []).append(offer)
-    return offers, beside
+def _offers_at(touch: _Touch, ends: Ends, ahead: EndsAhead) -> list[Offer]:
+    """The offers of a line's ends at a solid that it touches; none where it does so without an end there."""
+    rows = ends.of_part.get(touch.part, ())
+    return [offer for end in rows if (offer := _offer(ends, end, touch, ahead)) is not None]
+
+
+def _side_of(touch: _Touch, lines: Mapping[int, Centreline]) -> Side:
+    return _side(lines[touch.part], touch.part, touch.solid, touch.place, touch.gap)
 
 
 def _meetings(contacts: Contacts, lines: Collection[int], solids: Collection[int]) -> Iterator[tuple[int, int, int]]:

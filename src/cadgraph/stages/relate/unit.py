@@ -19,6 +19,11 @@ _OPERATORS = frozenset(
     {"valve stem", "handwheel", "lever", "yoke", "gland", "gearbox", "actuator", "position indicator"}
 )
 
+# What stands on a vessel is none by itself, and machines have it, too; what drives a pump drives other machines.
+_ON_VESSELS = frozenset({"nozzle", "manway", "saddle", "skirt", "tank leg", "lifting lug"})
+_DRIVES = frozenset({"motor", "motor fan cover", "terminal box", "shaft", "coupling guard", "pump base"})
+_DRIVEN = frozenset({"compressor", "blower", "burner", "separator"})
+
 
 def connected_groups(given: RelateInput, roles: Roles, skip: Collection[int] = ()) -> list[Group]:
     """Connected parts of one functional group, as in the paper (section III-B, step 6).
@@ -123,6 +128,7 @@ def _mended(piping: Piping) -> list[Group]:
     for _ in range(3):
         changed = _join_odd(work, piping)
         changed |= _join_pieces(work, piping)
+        changed |= _join_fittings(work, piping)
         if not changed:
             break
     return sorted(
@@ -196,6 +202,29 @@ def _join_odd(work: _Work, piping: Piping) -> bool:
             work.merge(takers[0], [*takers[1:], k], None)
             changed = True
     return changed
+
+
+def _join_fittings(work: _Work, piping: Piping) -> bool:
+    """Gives nozzles and legs without a vessel, and motors without a pump, to the machine that they alone are on."""
+    changed = False
+    for k in sorted(work.parts):
+        takers = _machines_at(work, k, piping) if k in work.parts else []
+        if len(takers) == 1:
+            work.merge(takers[0], [k], None)
+            changed = True
+    return changed
+
+
+def _machines_at(work: _Work, k: int, piping: Piping) -> list[int]:
+    """The machines at a group that is but what machines of several kinds have; none where it is more than that."""
+    names, parts = piping.roles.names, sorted(work.parts[k])
+    own = {names[part] for part in parts}
+    near = _touched(work, [other for part in parts for other in piping.given.neighbors.get(part, ())])
+    if work.types[k] == "tank" and own <= _ON_VESSELS:
+        return [other for other in near if work.types[other] in ("equipment", "pump")]
+    if work.types[k] == "pump" and own <= _DRIVES:
+        return [other for other in near if any(names[part] in _DRIVEN for part in work.parts[other])]
+    return []
 
 
 def _takers_of_odd(work: _Work, k: int, piece: int, piping: Piping) -> list[int]:

@@ -129,6 +129,13 @@ _SEVERAL_LEVERS = MappingProxyType({"check": 0.5, "relief": 0.15, "other": 0.4})
 # weight.
 _PASSES = 0.25
 _ABOVE = MappingProxyType({"check": 0.5, "relief": 0.05, "butterfly": 0.01, "other": 0.2})
+# How often valves of a kind that is turned by a wheel have one that is small for their size, and several bonnets, one
+# on the other: a spring is set by a small wheel on its housing, which stands on that of a diaphragm (counted on
+# generated valves in pieces; wheels of EN 12570 and of catalogues).
+_SMALL_WHEEL = MappingProxyType({"gate": 0.01, "globe": 0.06, "diaphragm": 0.05})
+_SEVERAL_BONNETS = MappingProxyType({"gate": 0.02, "globe": 0.06, "diaphragm": 0.03, "other": 0.3})
+# A wheel is small below this share of the nominal size; those of large valves are smaller (DN and share).
+_LEAST_WHEEL = ((150, 1.6), (300, 1.2), (10_000, 0.9))
 # A stem is this much longer than wide, and lies across the line up to this (cosine).
 _LONG, _ACROSS = 1.3, 0.3
 # A lever over a body as long as check valves are, and as no ball valve is, is this much likelier their arm (ours).
@@ -151,6 +158,8 @@ class _Look:
         yoke: whether there is a yoke among its parts, and no actuator or gearbox.
         levers: how many levers there are among its parts.
         above: whether a lever turns about a stem that passes the line.
+        small_wheel: whether a wheel turns it that is small for its size.
+        bonnets: how many bonnets there are among its parts.
     """
 
     turned: str | None
@@ -164,6 +173,8 @@ class _Look:
     yoke: bool = False
     levers: int = 0
     above: bool = False
+    small_wheel: bool = False
+    bonnets: int = 0
 
     @property
     def says_something(self) -> bool:
@@ -215,12 +226,15 @@ def _likelihood(kind: str, look: _Look) -> float:
 
 def _by_parts(kind: str, look: _Look) -> float:
     """How often a valve of a kind has what this one has: a ball or a disc, a yoke, several levers, a weight's arm, a
-    stem that passes the line.
+    stem that passes the line, a small wheel, several bonnets.
     """
     share = _HOLDS[look.closed_by].get(kind, 0.002) if look.closed_by else 1.0
     share *= _HOLDS_YOKE[kind] if look.yoke else 1.0
     share *= _ARM if kind == "check" and _may_be_arm(look) else 1.0
     share *= _ABOVE.get(kind, 0.002) if look.above else 1.0
+    if look.turned == "wheel":
+        share *= _SMALL_WHEEL.get(kind, 0.4) if look.small_wheel else 1.0
+        share *= _SEVERAL_BONNETS.get(kind, 0.2) if look.bonnets > 1 else 1.0
     return share * (_SEVERAL_LEVERS.get(kind, 0.04) if look.levers > 1 else 1.0)
 
 
@@ -284,12 +298,21 @@ def _look(unit: UnitParts, names: Sequence[str | None], size: int | None, parts:
         closed_by=_first_of(_HOLDS, own),
         yoke="yoke" in own and turned not in ("actuator", "gearbox"),
         levers=named.count("lever"),
+        small_wheel=size is not None and _has_small_wheel(unit, names, parts, size),
+        bonnets=named.count("valve bonnet"),
     )
     line = line_through(unit.openings)
     if line is None:
         return look
     look = replace(look, above=turned == "lever" and _stem_passes(unit, names, parts, line, size))
     return _in_line(look, surface_about(parts, unit.parts, *line), still and "valve body" in own)
+
+
+def _has_small_wheel(unit: UnitParts, names: Sequence[str | None], parts: Parts, size: int) -> bool:
+    """Whether the wheels of a valve are all smaller than those that turn valves of its size."""
+    wheels = [part for part in unit.parts if names[part] == "handwheel"]
+    least = next(share for most, share in _LEAST_WHEEL if size <= most) * size / 1000
+    return bool(wheels) and float(parts.properties.obb_extents[wheels].max()) < least
 
 
 def _stem_passes(
