@@ -1,4 +1,5 @@
 # make demo   set up, build the scene graph of a small plant, say what was found
+# make install  set up all of it, generated plants and evaluation included; make demo needs less
 # make test   set up, run every test; with LEAVE_OUT=long without those that take minutes
 # make test-fast  the quick tests: about ten minutes of one processor
 # make test-physics  the tests in PhysX and Newton, in an environment of their own (Linux on x86; 3 GB, some minutes)
@@ -29,10 +30,13 @@ BROWSERS := chromium chromium-browser google-chrome google-chrome-stable microso
 WEB_TOOLS := web/node_modules/.package-lock.json
 NO_NODE := the page needs Node 20 or newer with npm to be built or checked: https://nodejs.org; the one that is built already works without
 
-.PHONY: demo test test-fast test-physics browser web web-tools web-test screenshots check check-wheel bench fuzz train docs gallery clean
+.PHONY: demo install test test-fast test-physics browser web web-tools web-test screenshots check check-wheel bench fuzz train docs gallery clean
 
 demo: $(VENV)/.with-all
 	$(BIN)/cadgraph demo --output demo
+
+install: $(VENV)/.with-dev
+	@echo "cadgraph is in $(VENV): '. $(BIN)/activate', then 'cadgraph --help'"
 
 # By file, as what a file's tests share is made once. One more than processors, as some tests wait for servers and other
 # processes; more than four want more memory than a laptop has. In the order of tests/conftest.py, which begins with the
