@@ -135,6 +135,19 @@ def test_sizes_are_those_of_hygienic_tubes_where_most_of_a_plant_is_made_of_them
     assert sizes_along([(1.0, 0.041)], table) == (size,)
 
 
+@pytest.mark.parametrize(
+    ("diameters", "size"),
+    [
+        ((0.0508, 0.0381, 0.0508), 50),
+        ((0.0508, 0.0508, 0.1016), 50),  # as wide as a pipe, too, says nothing
+        ((0.0761, 0.0761, 0.0761, 0.0127), None),  # pipes of DN 65, and a tube of an instrument
+        ((0.0508, 0.0603, 0.0483), None),
+    ],
+)
+def test_tubes_in_inches_have_sizes_of_their_own(diameters, size):
+    assert nominal_size(0.0508, table_of([(1.0, diameter) for diameter in diameters])) == size
+
+
 def test_lines_of_hygienic_tubes_have_their_sizes():
     plant = Plant().pipe((0, 0, 0), (1, 0, 0), radius=0.0205, bore=0.019)
     plant.pipe((0, 1, 0), (1, 1, 0), radius=0.0265, bore=0.025)

@@ -4,7 +4,7 @@ import pytest
 
 from cadgraph.stages.relate.foot import BESIDE
 from cadgraph.stages.relate.recover import recover_units
-from piping import GAUGE, PIPE, TANK, gauge_mesh, pipe
+from piping import GAUGE, PIPE, TANK, VALVE, gauge_mesh, pipe
 from sketch import Sketch
 
 STEM = 0.1  # m
@@ -30,6 +30,11 @@ def test_a_piece_of_unknown_name_at_a_gauge_is_its_stem():
 @pytest.mark.parametrize(("stem", "found"), [(1.05, True), (0.95, False)])
 def test_it_looks_enough_like_one(stem, found):
     assert stands(likely={(GAUGE, "gauge stem"): stem * 0.3 / BESIDE, (PIPE, "nipple"): 0.3}) is found
+
+
+@pytest.mark.parametrize(("valve", "stem"), [(0.15, True), (0.25, False)])
+def test_what_is_likelier_a_valve_is_no_stem(valve, stem):
+    assert stands(likely={(GAUGE, "gauge stem"): 0.2, (PIPE, "nipple"): 0.3, (VALVE, "valve body"): valve}) is stem
 
 
 def test_a_long_piece_is_pipe():

@@ -198,3 +198,12 @@ def test_the_curves_are_in_order():
     assert list(WAIST.gives) == sorted(WAIST.gives, reverse=True)
     assert list(THICKER.gives) == sorted(THICKER.gives)
     assert INLINE["base"] < 0 < INLINE["base"] + INLINE["stem"]
+
+
+@pytest.mark.parametrize(("over", "found"), [(0.009, [(0, 3)]), (-0.002, [(3,)])])
+def test_a_lever_sits_on_the_piece_that_it_touches_not_on_the_pipe_that_it_passes_over(over, found):
+    likely = {(PIPE, "expansion joint"): 0.47, (VALVE, "valve body"): 0.26}
+    sketch = between(turned(shapes.cylinder(R, 0.2), (0.1, 0, 0), X), likely=likely)
+    foot, lever = block((0.1, 0, R + 0.01), (0.02, 0.02, 0.024)), block((0.2, 0, R + over + 0.005), (0.22, 0.02, 0.01))
+    sketch.add(merged(foot, lever), VALVE, "lever", likely={(VALVE, "lever"): 0.9})
+    assert valves(sketch) == found

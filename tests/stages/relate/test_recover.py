@@ -210,3 +210,21 @@ def test_a_body_between_a_line_and_the_flange_of_a_pump_is_a_valve(likely, found
     sketch.add(turned(shapes.cylinder(0.08, 0.4), (0.378, 0, 0), X), PUMP, "pump", source="author")
     groups = recover_units(sketch.piping()).groups
     assert [group.unit_type for group in groups if 0 in group.parts] == found
+
+
+@pytest.mark.parametrize(("gauge", "found"), [(0.15, ["valve"]), (0.4, ["gauge"])])
+def test_a_cock_between_a_line_and_a_gauge_is_a_valve_where_it_is_far_likelier_one(gauge, found):
+    sketch = Sketch()
+    sketch.add(block((0.05, 0, 0), (0.1, 0.06, 0.06)), likely={(VALVE, "valve"): 0.47, (GAUGE, "gauge stem"): gauge})
+    sketch.pipe((-1, 0, 0), (0, 0, 0))
+    sketch.add(turned(shapes.cylinder(0.025, 0.1), (0.15, 0, 0), X), GAUGE, "gauge", source="author")
+    groups = recover_units(sketch.piping()).groups
+    assert [group.unit_type for group in groups if 0 in group.parts] == found
+
+
+@pytest.mark.parametrize(("name", "kind"), [("motor", "pump"), ("pump base", None)])
+def test_what_a_motor_without_a_pump_stands_at_is_one(name, kind):
+    said = {NAMES["pump"]: 0.48, NAMES["valve"]: 0.08, NAMES["equipment"]: 0.25}
+    sketch = around((0.24, 0.3, 0.24), "aligned", likely=said)
+    sketch.add(block((0, 0.3, 0), 0.3), PUMP, name, likely={(PUMP, name): 0.9})
+    assert found(sketch) == kind

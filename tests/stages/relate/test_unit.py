@@ -2,8 +2,9 @@
 
 import pytest
 
-from piping import PIPE, pipe
-from sketch import Sketch, block
+import shapes
+from piping import PIPE, VALVE, pipe, ring, turned
+from sketch import Sketch, X, block
 
 
 def units(*bodies):
@@ -50,3 +51,35 @@ def test_the_motor_of_a_compressor_is_no_pump():
 
 def test_a_motor_at_what_needs_none_stays_that_of_a_pump():
     assert ("equipment", (0,)) in driven_by_a_motor("Equipment", "filter")
+
+
+def sandwiched(*, disc, label=None):
+    """Type and parts of each unit where a ring with a disc in it lies between two pipes, and a lever stands on it."""
+    sketch = Sketch()
+    sketch.add(ring((0, 0, 0), X, 0.05, outer=0.08, inner=0.028), *label or (), sure=0.6)
+    if disc:
+        sketch.add(turned(shapes.cylinder(0.028, 0.006), (0.025, 0, 0), X), VALVE, "valve disc")
+    sketch.add(block((0.025, 0, 0.12), (0.02, 0.02, 0.08)), VALVE, "lever")
+    sketch.pipe((-1, 0, 0), (0, 0, 0))
+    sketch.pipe((0.05, 0, 0), (1, 0, 0))
+    return [(unit.unit_type, unit.parts) for unit in sketch.connected().network.units]
+
+
+@pytest.mark.parametrize("label", [None, (PIPE, None)])
+def test_what_holds_the_disc_of_a_valve_is_its_body(label):
+    assert sandwiched(disc=True, label=label) == [("valve", (0, 1, 2))]
+
+
+def test_a_named_piece_of_piping_that_holds_a_disc_stays_one():
+    assert all(0 not in parts for _, parts in sandwiched(disc=True, label=(PIPE, "flange")))
+
+
+@pytest.mark.parametrize(("name", "count"), [("lifting lug", 0), ("tank leg", 0), ("shell", 1)])
+def test_lugs_and_legs_without_a_vessel_are_no_tank(name, count):
+    sketch = Sketch()
+    sketch.add(block((0, 0, 0), 0.1), "Tank", name, source="author")
+    sketch.pipe((3, 0, 0), (4, 0, 0), source="author")
+    connected = sketch.connected()
+    assert len(connected.network.units) == count
+    told = [one.meshes for one in connected.diagnostics if one.code == "loose-fitting"]
+    assert told == ([] if count else [("/m0",)])

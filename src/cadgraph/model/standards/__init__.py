@@ -1,17 +1,18 @@
 """Tables of the standards of piping, as CSV files beside this module: lengths in mm, a column ``source`` in each.
 
-======================  ============================================================================================
-``pipes``               outer diameters by nominal size (DN), and the wall where the size is built by the generator
-``hygienic_tubes``      the same of tubes for food and pharmacy, whose sizes are others
-``flanges``             class 150
-``face_to_face``        lengths of valves from flange face to flange face, class 150 (ASME B16.10)
-``face_to_face_en558``  the same after EN 558, by basic series
-``fittings``            lengths of elbows, tees and reducers
-``nuts``                by the diameter of their bolt
-``washers``             by the diameter of their bolt
-``gauges``              pressure gauges by the diameter of their case
-``sections``            steel sections
-======================  ============================================================================================
+=======================  ===========================================================================================
+``pipes``                outer diameters by nominal size (DN), and the wall where the size is built by the generator
+``hygienic_tubes``       the same of tubes for food and pharmacy, whose sizes are others
+``hygienic_tubes_inch``  the same of such tubes in inches
+``flanges``              class 150
+``face_to_face``         lengths of valves from flange face to flange face, class 150 (ASME B16.10)
+``face_to_face_en558``   the same after EN 558, by basic series
+``fittings``             lengths of elbows, tees and reducers
+``nuts``                 by the diameter of their bolt
+``washers``              by the diameter of their bolt
+``gauges``               pressure gauges by the diameter of their case
+``sections``             steel sections
+=======================  ===========================================================================================
 """
 
 from __future__ import annotations
@@ -44,7 +45,7 @@ def outer_diameters(table: str = "pipes") -> tuple[tuple[int, float], ...]:
     """Nominal size (DN) and outer diameter of pipes [m], by every standard that is in a table.
 
     Args:
-        table: ``pipes`` or ``hygienic_tubes``.
+        table: ``pipes``, ``hygienic_tubes`` or ``hygienic_tubes_inch``.
     """
     return tuple(dict.fromkeys((int(row["dn"]), float(row["outer_mm"]) / 1000) for row in read_table(table)))
 

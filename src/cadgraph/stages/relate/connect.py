@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -38,7 +38,7 @@ from cadgraph.stages.relate.stated_names import name_as_stated, tag_as_stated
 from cadgraph.stages.relate.stub import drop_stubs
 from cadgraph.stages.relate.tag import tag_units
 from cadgraph.stages.relate.trace import drop_shapeless, trace_lines
-from cadgraph.stages.relate.unit import is_loose_operator, mend_units
+from cadgraph.stages.relate.unit import is_loose, mend_units
 
 __all__ = ["Connected", "connect_units"]
 
@@ -104,7 +104,7 @@ def connect_units(given: RelateInput) -> Connected:
         *_stated_gaps(piping),
         *report_unplaced(given.stated),
         *_doubted_labels(given.parts, roles),
-        *_loose_operators(given.parts, loose),
+        *_loose_pieces(given.parts, loose),
         *contradictions,
         *named.diagnostics,
         *told,
@@ -142,14 +142,14 @@ def _unjoined(piping: Piping, network: Network) -> list[Unmet]:
 
 
 def _decide(piping: Piping, groups: Sequence[Group]) -> tuple[list[Group], list[Group]]:
-    """Which groups are units, each device one; and the handwheels, levers and the like that sit on no valve."""
+    """Which groups are units, each device one; and handwheels on no valve, legs and lugs on no vessel."""
     reached = set(piping.mounted)
     # Where labels are doubtful, what only its own label calls a device and no line leads to is none.
     held = [
         group for group in groups if not piping.unsupported.issuperset(group.parts) or reached.intersection(group.parts)
     ]
     likeliest = _likeliest_names(piping)
-    loose = [group for group in held if is_loose_operator(group, likeliest, reached)]
+    loose = [group for group in held if is_loose(group, likeliest, reached)]
     return split_groups(piping, [group for group in held if group not in loose]), loose
 
 
@@ -267,8 +267,13 @@ def _doubted_labels(parts: Parts, roles: Roles) -> tuple[Diagnostic, ...]:
     return (Diagnostic("label-doubted", message, tuple(parts.scene.paths[part] for part in roles.doubted)),)
 
 
-def _loose_operators(parts: Parts, loose: Sequence[Group]) -> tuple[Diagnostic, ...]:
-    if not loose:
-        return ()
-    heads = tuple(parts.scene.paths[part] for group in loose for part in group.parts)
-    return (Diagnostic("loose-operator", "handwheels, levers or the like that sit on no valve form no unit", heads),)
+def _loose_pieces(parts: Parts, loose: Sequence[Group]) -> Iterator[Diagnostic]:
+    for unit_type, code, what in (
+        ("valve", "loose-operator", "handwheels, levers or the like that sit on no valve"),
+        ("tank", "loose-fitting", "lifting lugs, legs or the like that stand on no vessel"),
+    ):
+        heads = tuple(
+            parts.scene.paths[part] for group in loose if group.unit_type == unit_type for part in group.parts
+        )
+        if heads:
+            yield Diagnostic(code, f"{what} form no unit", heads)

@@ -60,13 +60,19 @@ def _feet(piping: Piping, beliefs: Beliefs) -> Iterator[tuple[int, int, float]]:
     """
     owner = {part: number for number, group in enumerate(piping.groups) for part in group.parts}
     lines = beliefs.of_groups(piping.given.vocabulary.connector_groups)
-    own = {kind: beliefs.of_groups(piping.given.vocabulary.groups_of(kind)) for kind in _LONGEST}
+    vocabulary = piping.given.vocabulary
+    own = {
+        kind: beliefs.of_groups(vocabulary.groups_of(kind)) for kind in {*_LONGEST, *vocabulary.unit_of_group.values()}
+    }
     at = [(int(piping.joints.ends.part[mount.row]), owner.get(mount.part)) for mount in piping.joints.mounts]
     for part, number in at:
         if number is None or not _may_be_foot(piping, beliefs, part, piping.groups[number].unit_type):
             continue
-        likely, against = BESIDE * float(own[piping.groups[number].unit_type][part]), float(lines[part])
-        if likely > 0 and likely >= against:
+        kind = piping.groups[number].unit_type
+        likely, against = BESIDE * float(own[kind][part]), float(lines[part])
+        # A valve at a gauge is its root valve rather than a piece of it.
+        another = any(float(said[part]) > float(own[kind][part]) for other, said in own.items() if other != kind)
+        if likely > 0 and likely >= against and not another:
             yield part, number, likely / (likely + against)
 
 

@@ -47,6 +47,7 @@ _NARROW = 0.7  # the ends of two cones that meet are narrower than their other e
 # pipe with its flanges in one mesh: cones meet at a point.
 _SPOOL, _EVEN, _SLICES = 0.5, 1.08, 12
 _MOST_PLATES = 5  # flanges and gaskets at an end
+_TOUCH = 0.001  # what is farther from a lever than the piece that it sits on by this is not what it sits on [m]
 _THIN = 0.7  # a stem is thinner than the body by this factor
 
 
@@ -122,8 +123,11 @@ def _judged(piece: _Piece, on_it: Sequence[str], said: Term, rival: float | None
     for curve, value in ((WAIST, piece.waist), (THICKER, piece.thicker)):
         terms += [(curve.says.format(value), float(curve(value)))] if float(curve(value)) else []
     terms += [(_ON_IT[kind], INLINE[kind]) for kind in on_it]
-    odds = float(np.exp(sum(odds for _, odds in terms)))
-    against = 1 if rival is None else 1 + odds * float(np.exp(rival))
+    total = sum(odds for _, odds in terms)
+    odds = float(np.exp(total))
+    # Nothing else has pieces of a valve on it.
+    alike = total - (INLINE["operator"] if "operator" in on_it else 0.0)
+    against = 1 if rival is None else 1 + float(np.exp(alike + rival))
     return Recovered(odds / (against + odds), tell_terms(terms))
 
 
@@ -283,9 +287,15 @@ def _operators(piping: Piping, piece: _Piece) -> set[int]:
 
 
 def _rests_on(piping: Piping, group: Group, piece: _Piece) -> bool:
-    """Whether no line leads to a group at a piece, and it touches no other line."""
-    lines = {line for part in group.parts for line in piping.lines_near(part)}
-    return lines <= set(piece.parts) and piping.mounted.keys().isdisjoint(group.parts)
+    """Whether no line leads to a group at a piece, and it touches no other line; a lever may pass over one."""
+    gaps = {
+        line: piping.given.gaps[min(part, line), max(part, line)]
+        for part in group.parts
+        for line in piping.lines_near(part)
+    }
+    own = min((gap for line, gap in gaps.items() if line in piece.parts), default=0.0)
+    touched = {line for line, gap in gaps.items() if gap <= own + _TOUCH}
+    return touched <= set(piece.parts) and piping.mounted.keys().isdisjoint(group.parts)
 
 
 def _is_stem(piping: Piping, piece: _Piece, part: int, thin: float) -> bool:

@@ -74,6 +74,12 @@ class RelateInput:
         return self.contacts.neighbors
 
     @cached_property
+    def gaps(self) -> Mapping[tuple[int, int], float]:
+        """The distance of each pair of near parts, the lower number first [m]."""
+        distances = self.contacts.distance.tolist()
+        return {(min(a, b), max(a, b)): gap for (a, b), gap in zip(self.contacts.plain_pairs, distances, strict=True)}
+
+    @cached_property
     def stated(self) -> Stated:
         """What the file says of joints and flow; nothing unless ``relate.use_metadata`` lets it count."""
         if not self.config.relate.use_metadata:

@@ -63,12 +63,15 @@ _ENDS: Mapping[str, str] = {
     "many": "several lines end at it",
 }
 
-# What touches parts of a unit that no line leads to is likely its body, and what touches another one a piece of it.
-_BODY, _PIECE = 2.5, 1.5
+# What touches parts of a unit that no line leads to is likely its body, what touches a motor without a pump still
+# likelier, and what touches another one a piece of it.
+_BODY, _DRIVEN, _PIECE = 2.5, 4.0, 1.5
+_MOTOR = frozenset({"motor", "motor fan cover", "coupling guard"})
 # Least probability of what is taken for a device, and of a device that the labeler finds likely to be another one, at
 # least so likely.
 _SURE, _OTHER, _LIKELY = 0.6, 0.8, 0.5
 _LEAST = 1e-3  # no probability counts for less
+_APART = 2.0  # what is so many times likelier something else is no piece of the unit that it is flanged to
 _MOSTLY_NAMED = 0.5  # below this share of parts that only the labeler has named what has no name is no device
 _STANDING = 0.5  # log-odds that what has the ends of lines at it carries them
 _WIDEST_GAUGE = 0.4  # m
@@ -114,6 +117,7 @@ class _Sight:
         pipes: the same as diameters of the widest line at it.
         slim: its reach from the axis as share of the pipe's radius; None where no pipe tells.
         closes: whether it is a disc on a single end, and as wide.
+        apart: whether it is far likelier something else than a piece of the unit that it is flanged to beyond the end.
         mounted: parts at which lines end.
     """
 
@@ -123,34 +127,36 @@ class _Sight:
     pipes: float
     slim: float | None
     closes: bool
+    apart: bool
     mounted: Collection[int]
 
 
 def _look_at(piping: Piping, beliefs: Beliefs, body: Body, ends: Ends, mounted: Collection[int]) -> _Sight:
     rows = [mount.row for mount in body.mounts]
     length = _longest(piping, body.parts)
-    between = len(rows) == 1 and _is_between(piping, beliefs, body, ends, rows[0])
+    rather = _rather(piping, beliefs, body, ends, rows[0]) if len(rows) == 1 else 0.0
     return _Sight(
         body=body,
-        arrangement="aligned" if between else arrangement_of(ends, rows),
+        arrangement="aligned" if rather > 1.0 else arrangement_of(ends, rows),
         length=length,
         pipes=length / (2 * float(ends.radius[rows].max())),
         slim=_slimness(piping, body, ends, rows),
         closes=_is_lid(piping, body, ends, rows),
+        apart=rather >= _APART,
         mounted=mounted,
     )
 
 
-def _is_between(piping: Piping, beliefs: Beliefs, body: Body, ends: Ends, row: int) -> bool:
-    """Whether a body is flanged to a unit on the axis of the line that ends at it, and is rather something else than
-    another piece of that unit: a valve at a pump, of which nobody is sure.
+def _rather(piping: Piping, beliefs: Beliefs, body: Body, ends: Ends, row: int) -> float:
+    """How much likelier than another piece of the unit that a body is flanged to, on the axis of the line that ends at
+    it, the body is something else: a valve at a pump, of which nobody is sure. 0 where it is flanged to none.
     """
     met = set(_flanged_to(piping, body, ends, row))
     if len(met) != 1:
-        return False
+        return 0.0
     kinds = sorted(set(piping.given.vocabulary.unit_of_group.values()))
     said = {kind: float(beliefs.of_groups(_groups_of(piping, kind))[list(body.parts)].mean()) for kind in kinds}
-    return max(kinds, key=lambda kind: said[kind]) not in met
+    return max(said[kind] for kind in kinds if kind not in met) / max(*(said[kind] for kind in met), _LEAST)
 
 
 def _flanged_to(piping: Piping, body: Body, ends: Ends, row: int) -> Iterator[str]:
@@ -223,13 +229,16 @@ def _further(piping: Piping, sight: _Sight, kind: str) -> Iterator[Term]:
     touched = _owners(piping, sight, kind)
     if touched:
         on_line = any(part in sight.mounted for group in touched for part in group.parts)
-        yield f"it touches a {kind}", _PIECE if on_line else _BODY
+        driven = any(piping.roles.names[part] in _MOTOR for group in touched for part in group.parts)
+        yield f"it touches a {kind}", _PIECE if on_line else _DRIVEN if driven else _BODY
 
 
 def _owners(piping: Piping, sight: _Sight, unit_type: str) -> list[Group]:
     """The groups of a type that a body touches and may be a piece of; a gauge with a stem of its own is screwed into
     what more than one line ends at.
     """
+    if sight.apart:
+        return []
     touched = _touched(piping, sight.body, unit_type)
     if unit_type != "gauge" or sight.arrangement == "one":
         return touched

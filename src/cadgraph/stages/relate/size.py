@@ -9,15 +9,15 @@ from cadgraph.model.standards import outer_diameters
 
 __all__ = ["PIPES", "nominal_size", "sizes_along", "table_of"]
 
-PIPES, _HYGIENIC = "pipes", "hygienic_tubes"
+PIPES, _HYGIENIC = "pipes", ("hygienic_tubes", "hygienic_tubes_inch")
 
 # An outer diameter belongs to a size within this share. Ours: the widest that keeps neighbours apart from DN 15 up
 # (DN 300 and 350 differ by 10 %), as drawn pipes are a polygon or a rounded figure.
 _TOLERANCE = 0.045
-# Tubes for food and pharmacy have outer diameters of their own, of which one lies between two sizes of pipes, or near
-# another one: they count where this share of a plant's length is as wide as these within this share of it, and no more
-# than that one as wide as pipes. Ours.
-_EXACT, _MOSTLY, _HARDLY = 0.006, 0.6, 0.2
+# Tubes for food and pharmacy have outer diameters of their own, of which some lie between two sizes of pipes, or near
+# one: they count where this share of a plant's length is as wide as these within this share of it, and no more than
+# that one as wide as pipes. What is as wide as both (76 mm, 101.6 mm) says neither, but must not be too much. Ours.
+_EXACT, _MOSTLY, _HARDLY, _ENOUGH = 0.006, 0.6, 0.2, 0.3
 _MOST_KEPT = 1 << 16  # diameters; pipes of a plant have few
 
 
@@ -30,8 +30,8 @@ def nominal_size(diameter: float, table: str = PIPES) -> int | None:
         table: that sizes are of, as :func:`table_of` gives it.
 
     Returns:
-        The size whose outer diameter in EN 10220 or ASME B36.10M is nearest, or of hygienic tubes in EN 10357; None
-        where none is within 4.5 %.
+        The size whose outer diameter in EN 10220 or ASME B36.10M is nearest, or of hygienic tubes in EN 10357 or
+        ASME BPE; None where none is within 4.5 %.
     """
     off, size = min((abs(diameter / outer - 1), size) for size, outer in outer_diameters(table))
     return size if off <= _TOLERANCE else None
@@ -43,12 +43,19 @@ def table_of(pieces: Iterable[tuple[float, float]]) -> str:
     Args:
         pieces: length and outer diameter of each piece of pipe of the plant [m].
     """
-    total = hygienic = usual = 0.0
-    for length, diameter in pieces:
-        total += length
-        hygienic += length * _is_exactly(diameter, _HYGIENIC)
-        usual += length * _is_exactly(diameter, PIPES)
-    return _HYGIENIC if hygienic > _MOSTLY * total and usual <= _HARDLY * total else PIPES
+    known = list(pieces)
+    total = sum(length for length, _ in known)
+    for table in _HYGIENIC:
+        both = tube = pipe = 0.0
+        for length, diameter in known:
+            as_tube, as_pipe = _is_exactly(diameter, table), _is_exactly(diameter, PIPES)
+            both += length * (as_tube and as_pipe)
+            tube += length * (as_tube and not as_pipe)
+            pipe += length * (as_pipe and not as_tube)
+        told = total - both
+        if tube > _MOSTLY * told and pipe <= _HARDLY * told and tube >= _ENOUGH * total > 0:
+            return table
+    return PIPES
 
 
 @lru_cache(maxsize=_MOST_KEPT)

@@ -17,6 +17,7 @@ from cadgraph.model.parts import Bools, Contacts, Parts
 from cadgraph.model.scene import Floats
 from cadgraph.stages.relate.attach import facings_of
 from cadgraph.stages.relate.decide import decide_joints
+from cadgraph.stages.relate.enclosed import holds_disc
 from cadgraph.stages.relate.joint import Ends, find_tap, gather_ends
 from cadgraph.stages.relate.line import is_disc, is_fitting, is_neck, is_plain_tube, is_steady, is_straight
 from cadgraph.stages.relate.offer import Surroundings, offer_faces
@@ -63,7 +64,7 @@ def trace_lines(given: RelateInput, roles: Roles) -> Piping:
     Returns:
         The piping; a connector whose shape is no line's is among its lineless ones.
     """
-    connectors = _connectors(given, roles)
+    connectors = [part for part in _connectors(given, roles) if not _may_be_body(given, roles, part)]
     others = likely_lines(roles, given.opinions, given.contacts, given.vocabulary, given.parts.ground.tolist())
     possible = _possible_lines(given, roles, _with_further_pieces(given, roles, others))
     carrying = [*connectors, *possible.candidates()]
@@ -128,6 +129,7 @@ class _Possible:
 
 def _possible_lines(given: RelateInput, roles: Roles, others: Sequence[int]) -> _Possible:
     """The parts that may continue a line, and what speaks for each of them."""
+    others = [part for part in others if not holds_disc(given, roles, part)]
     singles = [group.parts[0] for group in connected_groups(given, roles) if len(group.parts) == 1]
     return _Possible(others, singles, _likely_between(given, roles, others), _unsure_pieces(given))
 
@@ -155,6 +157,12 @@ def _unsure_pieces(given: RelateInput) -> list[int]:
         and unit_of_group.get(label.group) in _WITH_PIPES
         and label.confidence < _UNSURE
     ]
+
+
+def _may_be_body(given: RelateInput, roles: Roles, part: int) -> bool:
+    """Whether the labeler alone takes a part for piping, without a name for it, and it holds what closes a valve."""
+    label = given.labels[part]
+    return label is given.opinions[part] and label is not None and label.name is None and holds_disc(given, roles, part)
 
 
 def _is_flanged(given: RelateInput, part: int) -> bool:

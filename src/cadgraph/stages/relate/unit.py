@@ -9,10 +9,11 @@ from dataclasses import dataclass, replace
 
 from cadgraph.geometry.components import connected_sets
 from cadgraph.model.vocabulary import FASTENERS
+from cadgraph.stages.relate.enclosed import holds_disc
 from cadgraph.stages.relate.piping import Group, Piping, RelateInput
 from cadgraph.stages.relate.role import Roles
 
-__all__ = ["connected_groups", "is_loose_operator", "mend_units", "take_in_enclosed"]
+__all__ = ["connected_groups", "is_loose", "mend_units", "take_in_enclosed"]
 
 _FASTENERS = FASTENERS | {"gasket"}
 _OPERATORS = frozenset(
@@ -50,16 +51,19 @@ def _pairs_of_one_type(given: RelateInput, types: Sequence[str | None]) -> list[
     ]
 
 
-def is_loose_operator(group: Group, names: Sequence[str | None], reached: Collection[int]) -> bool:
-    """Whether a group is but a handwheel, lever or the like that sits on no valve.
+def is_loose(group: Group, names: Sequence[str | None], reached: Collection[int]) -> bool:
+    """Whether a group is but a handwheel, lever or the like that sits on no valve, or a leg or lug on no vessel.
 
     Args:
         group: connected parts.
         names: of each part, or the likeliest where only the group is known.
         reached: parts at which lines end.
     """
-    on_line = any(part in reached for part in group.parts)
-    return group.unit_type == "valve" and _is_operator(group.parts, names) and not on_line
+    if any(part in reached for part in group.parts):
+        return False
+    if group.unit_type == "tank":
+        return all(names[part] in _ON_VESSELS - {"nozzle"} for part in group.parts)
+    return group.unit_type == "valve" and _is_operator(group.parts, names)
 
 
 def _is_operator(parts: Collection[int], names: Sequence[str | None]) -> bool:
@@ -157,16 +161,17 @@ def _join_pieces(work: _Work, piping: Piping) -> bool:
 def _takers(work: _Work, piece: int, piping: Piping) -> list[int]:
     """The groups that a piece in between makes one, the one that stays first; none where it belongs to none.
 
-    Such a piece is a fastener all of whose neighbours are one unit, or it joins groups of which one at most is on a
-    line.
+    Such a piece is a fastener all of whose neighbours are one unit, the body around the disc of a valve, or it joins
+    groups of which one at most is on a line.
     """
     touched = _touched(work, piping.given.neighbors[piece])
     clamped = _is_clamped(work, piece, piping)
+    holds = piece not in piping.lines and holds_disc(piping.given, piping.roles, piece)
     for unit_type in sorted({work.types[k] for k in touched}):
         same = [k for k in touched if work.types[k] == unit_type]
         standing = [k for k in same if _stands(work.parts[k], piping.mounted, piece)]
         others = sorted(set(same).difference(standing))
-        joins = clamped or len(same) > 1 >= len(standing)
+        joins = clamped or len(same) > 1 >= len(standing) or (unit_type == "valve" and len(same) == 1 and holds)
         if joins and _may_hold(work, piece, others, piping):
             return standing + others
     return []
