@@ -398,14 +398,28 @@ def _mounts(
         *_touches(parts, contacts, lines, wide, float(contacts.distance.max(initial=0.0)) + _TIGHT),
     ]
     offers = [_offers_at(touch, ends, ahead) for touch in touches]
-    at_ends: dict[int, list[Offer]] = {}
+    beside, spare = _sides_of(touches, offers, lines, feet)
+    return _by_end(offers, loose), (*sides, *beside), tuple(spare)
+
+
+def _by_end(offers: Sequence[Sequence[Offer]], loose: Collection[int]) -> dict[int, list[Offer]]:
+    """The offers of each loose end."""
+    found: dict[int, list[Offer]] = {}
     for offer in (offer for some in offers for offer in some if offer.row in loose):
-        at_ends.setdefault(offer.row, []).append(offer)
+        found.setdefault(offer.row, []).append(offer)
+    return found
+
+
+def _sides_of(
+    touches: Sequence[_Touch],
+    offers: Sequence[Sequence[Offer]],
+    lines: Mapping[int, Centreline],
+    feet: Collection[int],
+) -> tuple[list[Side], list[Side]]:
+    """The sides of lines that solids touch without an end there, and those that feet touch near an end."""
     beside = [_side_of(touch, lines) for touch, some in zip(touches, offers, strict=True) if not some]
-    spare = [
-        _side_of(touch, lines) for touch, some in zip(touches, offers, strict=True) if some and touch.solid in feet
-    ]
-    return at_ends, (*sides, *beside), tuple(spare)
+    near = [touch for touch, some in zip(touches, offers, strict=True) if some and touch.solid in feet]
+    return beside, [_side_of(touch, lines) for touch in near]
 
 
 def _offers_at(touch: _Touch, ends: Ends, ahead: EndsAhead) -> list[Offer]:

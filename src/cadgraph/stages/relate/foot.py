@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from cadgraph.stages.relate.belief import Beliefs
@@ -58,22 +58,38 @@ def _feet(piping: Piping, beliefs: Beliefs) -> Iterator[tuple[int, int, float]]:
     """Parts with a line that end at a gauge or tank and look as much like a piece of it, the number of its group, and
     how sure that is.
     """
-    owner = {part: number for number, group in enumerate(piping.groups) for part in group.parts}
-    lines = beliefs.of_groups(piping.given.vocabulary.connector_groups)
     vocabulary = piping.given.vocabulary
-    own = {
-        kind: beliefs.of_groups(vocabulary.groups_of(kind)) for kind in {*_LONGEST, *vocabulary.unit_of_group.values()}
-    }
-    at = [(int(piping.joints.ends.part[mount.row]), owner.get(mount.part)) for mount in piping.joints.mounts]
-    for part, number in at:
-        if number is None or not _may_be_foot(piping, beliefs, part, piping.groups[number].unit_type):
-            continue
+    lines = beliefs.of_groups(vocabulary.connector_groups)
+    own = {kind: beliefs.of_groups(vocabulary.groups_of(kind)) for kind in {*vocabulary.unit_of_group.values()}}
+    for part, number in _at_units(piping):
         kind = piping.groups[number].unit_type
-        likely, against = BESIDE * float(own[kind][part]), float(lines[part])
-        # A valve at a gauge is its root valve rather than a piece of it.
-        another = any(float(said[part]) > float(own[kind][part]) for other, said in own.items() if other != kind)
-        if likely > 0 and likely >= against and not another:
-            yield part, number, likely / (likely + against)
+        if not _may_be_foot(piping, beliefs, part, kind):
+            continue
+        share = _share_of(kind, {one: float(values[part]) for one, values in own.items()}, float(lines[part]))
+        if share:
+            yield part, number, share
+
+
+def _at_units(piping: Piping) -> Iterator[tuple[int, int]]:
+    """The parts whose lines end at units, each with the number of the group."""
+    owner = {part: number for number, group in enumerate(piping.groups) for part in group.parts}
+    for mount in piping.joints.mounts:
+        if mount.part in owner:
+            yield int(piping.joints.ends.part[mount.row]), owner[mount.part]
+
+
+def _share_of(kind: str, said: Mapping[str, float], against: float) -> float:
+    """How sure it is that a piece is of a gauge or tank at its end; 0 where it is likelier pipe, or a device of another
+    type: a valve at a gauge is its root valve.
+
+    Args:
+        kind: type of the unit.
+        said: how likely the piece is of each type.
+        against: how likely it is pipe.
+    """
+    likely = BESIDE * said[kind]
+    foot = likely > 0 and likely >= against and said[kind] >= max(said.values())
+    return likely / (likely + against) if foot else 0.0
 
 
 def _may_be_foot(piping: Piping, beliefs: Beliefs, part: int, kind: str) -> bool:

@@ -226,11 +226,16 @@ def _further(piping: Piping, sight: _Sight, kind: str) -> Iterator[Term]:
         yield SLIM.says.format(sight.slim), odds if kind == FITTING else -odds
     if sight.closes and kind == FITTING:
         yield "it closes the end", LID
-    touched = _owners(piping, sight, kind)
+    touched = {part for group in _owners(piping, sight, kind) for part in group.parts}
     if touched:
-        on_line = any(part in sight.mounted for group in touched for part in group.parts)
-        driven = any(piping.roles.names[part] in _MOTOR for group in touched for part in group.parts)
-        yield f"it touches a {kind}", _PIECE if on_line else _DRIVEN if driven else _BODY
+        yield f"it touches a {kind}", _by_touch(piping, sight, touched)
+
+
+def _by_touch(piping: Piping, sight: _Sight, touched: Collection[int]) -> float:
+    """What it adds to a type that a body touches parts of such a unit."""
+    if any(part in sight.mounted for part in touched):
+        return _PIECE
+    return _BODY if _MOTOR.isdisjoint(piping.roles.names[part] for part in touched) else _DRIVEN
 
 
 def _owners(piping: Piping, sight: _Sight, unit_type: str) -> list[Group]:

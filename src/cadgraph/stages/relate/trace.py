@@ -64,7 +64,7 @@ def trace_lines(given: RelateInput, roles: Roles) -> Piping:
     Returns:
         The piping; a connector whose shape is no line's is among its lineless ones.
     """
-    connectors = [part for part in _connectors(given, roles) if not _may_be_body(given, roles, part)]
+    connectors = _without_bodies(given, roles, _connectors(given, roles))
     others = likely_lines(roles, given.opinions, given.contacts, given.vocabulary, given.parts.ground.tolist())
     possible = _possible_lines(given, roles, _with_further_pieces(given, roles, others))
     carrying = [*connectors, *possible.candidates()]
@@ -157,6 +157,11 @@ def _unsure_pieces(given: RelateInput) -> list[int]:
         and unit_of_group.get(label.group) in _WITH_PIPES
         and label.confidence < _UNSURE
     ]
+
+
+def _without_bodies(given: RelateInput, roles: Roles, parts: Iterable[int]) -> list[int]:
+    """Those parts that can't be the body of a valve."""
+    return [part for part in parts if not _may_be_body(given, roles, part)]
 
 
 def _may_be_body(given: RelateInput, roles: Roles, part: int) -> bool:

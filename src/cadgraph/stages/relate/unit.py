@@ -166,15 +166,20 @@ def _takers(work: _Work, piece: int, piping: Piping) -> list[int]:
     """
     touched = _touched(work, piping.given.neighbors[piece])
     clamped = _is_clamped(work, piece, piping)
-    holds = piece not in piping.lines and holds_disc(piping.given, piping.roles, piece)
     for unit_type in sorted({work.types[k] for k in touched}):
-        same = [k for k in touched if work.types[k] == unit_type]
+        same = _of_types(work, touched, (unit_type,))
         standing = [k for k in same if _stands(work.parts[k], piping.mounted, piece)]
         others = sorted(set(same).difference(standing))
-        joins = clamped or len(same) > 1 >= len(standing) or (unit_type == "valve" and len(same) == 1 and holds)
+        joins = clamped or len(same) > 1 >= len(standing) or _is_body_of(work, piece, same, piping)
         if joins and _may_hold(work, piece, others, piping):
             return standing + others
     return []
+
+
+def _is_body_of(work: _Work, piece: int, groups: Sequence[int], piping: Piping) -> bool:
+    """Whether a piece without a line is the body around the disc of the only valve that it touches."""
+    alone = len(groups) == 1 and work.types[groups[0]] == "valve" and piece not in piping.lines
+    return alone and holds_disc(piping.given, piping.roles, piece)
 
 
 def _touched(work: _Work, near: Sequence[int]) -> list[int]:
@@ -222,14 +227,22 @@ def _join_fittings(work: _Work, piping: Piping) -> bool:
 
 def _machines_at(work: _Work, k: int, piping: Piping) -> list[int]:
     """The machines at a group that is but what machines of several kinds have; none where it is more than that."""
-    names, parts = piping.roles.names, sorted(work.parts[k])
-    own = {names[part] for part in parts}
-    near = _touched(work, [other for part in parts for other in piping.given.neighbors.get(part, ())])
+    names = piping.roles.names
+    own, near = {names[part] for part in work.parts[k]}, _near(work, k, piping)
     if work.types[k] == "tank" and own <= _ON_VESSELS:
-        return [other for other in near if work.types[other] in ("equipment", "pump")]
-    if work.types[k] == "pump" and own <= _DRIVES:
-        return [other for other in near if any(names[part] in _DRIVEN for part in work.parts[other])]
-    return []
+        return _of_types(work, near, ("equipment", "pump"))
+    driven = _of_types(work, near, ("equipment",)) if work.types[k] == "pump" and own <= _DRIVES else []
+    return [other for other in driven if not _DRIVEN.isdisjoint(names[part] for part in work.parts[other])]
+
+
+def _near(work: _Work, k: int, piping: Piping) -> list[int]:
+    """The groups that a group touches, ascending."""
+    return _touched(work, [other for part in work.parts[k] for other in piping.given.neighbors.get(part, ())])
+
+
+def _of_types(work: _Work, groups: Sequence[int], types: Collection[str]) -> list[int]:
+    """Those groups that are of some types."""
+    return [k for k in groups if work.types[k] in types]
 
 
 def _takers_of_odd(work: _Work, k: int, piece: int, piping: Piping) -> list[int]:

@@ -298,7 +298,7 @@ def _look(unit: UnitParts, names: Sequence[str | None], size: int | None, parts:
         closed_by=_first_of(_HOLDS, own),
         yoke="yoke" in own and turned not in ("actuator", "gearbox"),
         levers=named.count("lever"),
-        small_wheel=size is not None and _has_small_wheel(unit, names, parts, size),
+        small_wheel=_has_small_wheel(unit, names, parts, size),
         bonnets=named.count("valve bonnet"),
     )
     line = line_through(unit.openings)
@@ -308,11 +308,13 @@ def _look(unit: UnitParts, names: Sequence[str | None], size: int | None, parts:
     return _in_line(look, surface_about(parts, unit.parts, *line), still and "valve body" in own)
 
 
-def _has_small_wheel(unit: UnitParts, names: Sequence[str | None], parts: Parts, size: int) -> bool:
-    """Whether the wheels of a valve are all smaller than those that turn valves of its size."""
+def _has_small_wheel(unit: UnitParts, names: Sequence[str | None], parts: Parts, size: int | None) -> bool:
+    """Whether the wheels of a valve are all smaller than those that turn valves of its size, if that is known."""
     wheels = [part for part in unit.parts if names[part] == "handwheel"]
+    if size is None or not wheels:
+        return False
     least = next(share for most, share in _LEAST_WHEEL if size <= most) * size / 1000
-    return bool(wheels) and float(parts.properties.obb_extents[wheels].max()) < least
+    return float(parts.properties.obb_extents[wheels].max()) < least
 
 
 def _stem_passes(
