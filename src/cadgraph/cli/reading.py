@@ -61,9 +61,8 @@ def show(
 
 def _scenes_in(folder: Path) -> list[str]:
     """The scenes of a run of many; none where a folder holds a graph itself, or is a file."""
-    from cadgraph._io.manifest import GRAPH_FILE, MANIFEST
+    from cadgraph._io.manifest import GRAPH_FILE, MANIFEST, graphs_in
     from cadgraph._io.staging import result_path
-    from cadgraph.session.many import graphs_in
 
     if not folder.is_dir() or any(result_path(folder / name).is_file() for name in (GRAPH_FILE, MANIFEST)):
         return []
