@@ -148,7 +148,8 @@ def read_bytes_within(
         missing: likewise where no such file is there.
 
     Raises:
-        error: it is missing, is a device, can't be read, or is too large; the message names the file, its size and the limit.
+        error: it is missing, a device, can't be read, or is too large; the message names the file, its size and the
+            limit.
     """
     source = Path(path)
     try:

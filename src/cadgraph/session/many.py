@@ -15,7 +15,7 @@ from typing import Any, Literal
 import cadgraph
 from cadgraph._io.atomic import write_atomically
 from cadgraph._io.digest import sha256_of
-from cadgraph._io.manifest import GRAPH_FILE, behind, changed_by_others, manifest_in
+from cadgraph._io.manifest import behind, changed_by_others, manifest_in
 from cadgraph._io.run_folder import at_work_in
 from cadgraph.config import Config
 from cadgraph.distribute.hands import Call, Failure
