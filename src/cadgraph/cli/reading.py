@@ -11,6 +11,7 @@ from rich.markup import escape
 
 from cadgraph.cli.application import app
 from cadgraph.cli.options import ConfigOption, GraphArgument, SetOption, settings_of
+from cadgraph.cli.panels import BUILD, EXPORT, LOOK
 from cadgraph.cli.screen import (
     REMEDY,
     counts,
@@ -29,7 +30,7 @@ if TYPE_CHECKING:
     from cadgraph.query.summary import Summary
 
 
-@app.command()
+@app.command(rich_help_panel=LOOK)
 def show(
     graph: GraphArgument,
     as_json: Annotated[bool, typer.Option("--json", help="Print the summary as JSON.")] = False,
@@ -108,7 +109,7 @@ def _state(graph: SceneGraph, path: Path) -> list[str]:
     return [*told, f"{source}; {REMEDY}"] if source else told
 
 
-@app.command()
+@app.command(rich_help_panel=EXPORT)
 def export(
     graph: GraphArgument,
     to: Annotated[
@@ -116,8 +117,8 @@ def export(
         typer.Option(
             "--to",
             metavar="FORMAT",
-            help="att, csv, dexpi, epanet, gltf, graphml, html, ifc, isometric, json, labels-csv, mjcf, networkx-json, "
-            "pcf, shards or usd.",
+            help="One of att, csv, dexpi, epanet, gltf, graphml, html, ifc, isometric, json, labels-csv, mjcf, "
+            "networkx-json, pcf, shards or usd.",
         ),
     ],
     output: Annotated[
@@ -172,7 +173,7 @@ def export(
         out.print(f"[dim]note[/]  {escape(note_line(note))}")
 
 
-@app.command("config")
+@app.command("config", rich_help_panel=BUILD)
 def config_(
     config: ConfigOption = None,
     settings: SetOption = None,

@@ -15,7 +15,7 @@ __all__ = ["agentbench"]
 
 agentbench = typer.Typer(
     name="agentbench",
-    help="How well agents answer questions about generated plants, whose answers can be proved.",
+    help="Measure how well agents answer questions about generated plants, whose answers can be proved.",
     no_args_is_help=True,
 )
 SetArgument = Annotated[Path, typer.Argument(metavar="SET", help="What 'make' wrote: set.jsonl, or its folder.")]
