@@ -50,7 +50,13 @@ class AskingOptions:
         _option("--model", metavar="NAME", show_default=_SET.model, help="Of the model, as the server knows it."),
     ] = None
     base_url: Annotated[
-        str | None, _option("--base-url", metavar="URL", help="A compatible server: vLLM, Ollama, LM Studio, Azure...")
+        str | None,
+        _option(
+            "--base-url",
+            metavar="URL",
+            show_default="OpenAI's own",
+            help="A compatible server: vLLM, Ollama, LM Studio, Azure...",
+        ),
     ] = None
     votes: Annotated[
         int | None,

@@ -33,7 +33,7 @@ def correct(
     folder: _Folder,
     label: Annotated[
         list[str] | None,
-        typer.Option("--label", metavar="PART=LABEL", help="What a part is, and its repeats. May be repeated."),
+        typer.Option("--label", metavar="PART=LABEL", help="What a part is, as relabel says it. May be repeated."),
     ] = None,
     forget: Annotated[
         list[str] | None, typer.Option("--forget", metavar="PART", help="Take the label of a part back.")
@@ -82,7 +82,7 @@ def correct(
     ] = None,
     report: Annotated[bool, typer.Option("--report/--no-report", help="Draw pictures and write report.html.")] = True,
 ) -> None:
-    """Correct units, joints, directions of flow, tags and the ground; also labels, several at once (one: relabel).
+    """Correct units, joints, directions of flow, tags and the ground; also several labels at once (relabel: one).
 
     Parts are named by id or source path, units by tag. All that is given is one correction: it is done as a whole or,
     where something can't be, not at all. It is kept in corrections.json in the folder, which a later 'cadgraph build'

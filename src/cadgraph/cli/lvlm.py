@@ -56,7 +56,7 @@ def label(
     settings: SetOption = None,
     report: Annotated[bool, typer.Option("--report/--no-report", help="Draw pictures and write report.html.")] = True,
 ) -> None:
-    """Ask a labeler again for the labels of all parts: a model, answers in a folder, or the results of a batch.
+    """Ask a labeler again for the labels of all parts: a model, a folder of answers, the results of a batch.
 
     Corrections and labels from outside stay. To correct single parts use 'cadgraph relabel' or 'cadgraph correct'.
     """
