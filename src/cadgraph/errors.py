@@ -86,7 +86,9 @@ class MissingExtra(CadGraphError):
 
     def __init__(self, purpose: str, extra: str) -> None:
         self.purpose, self.extra = purpose, extra
-        super().__init__(f"{purpose} needs an extra: pip install 'cadgraph[{extra}]'")
+        super().__init__(
+            f"{purpose} needs an extra: pip install 'cadgraph[{extra}]', in a checkout pip install '.[{extra}]'"
+        )
 
 
 class MissingPackage(CadGraphError):
@@ -99,7 +101,10 @@ class MissingPackage(CadGraphError):
 
     def __init__(self, command: str, package: str) -> None:
         self.package = package
-        super().__init__(f"'cadgraph {command}' comes with the package {package}: pip install {package}")
+        super().__init__(
+            f"'cadgraph {command}' comes with the package {package}: pip install {package}, in a checkout "
+            f"pip install ./packages/{package}"
+        )
 
 
 class AskError(CadGraphError, ValueError):

@@ -244,4 +244,43 @@ def test_of_a_run_of_many_scenes_each_is_told(capsys, folder, tmp_path):
     values = json.loads(run(capsys, "show", tmp_path / "many", "--json")[1])
     assert list(values) == ["pump-2", "pump-10"]
     assert values["pump-10"] == json.loads(run(capsys, "show", folder, "--json")[1])
-    assert "graph.json: can't be read" in refused(capsys, "show", tmp_path)
+    assert "graph.json: no such file; 'cadgraph build' makes it" in refused(capsys, "show", tmp_path)
+    assert "none: no such file or folder; check the path" in refused(capsys, "show", tmp_path / "none")
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("overview",), ("lines",), ("describe", "V-001"), ("export", "--to", "csv"), ("label",), ("simulate",),
+        ("corrections",), ("relabel", "part-00001", "--forget"), ("correct", "--undo"), ("ask-folder",), ("view",),
+    ],
+    ids=lambda words: words[0],
+)  # fmt: skip
+def test_a_folder_of_several_plants_names_them(capsys, folder, tmp_path, words):
+    site = tmp_path / "site"
+    for name in ("skid", "pumps"):
+        (site / name).mkdir(parents=True)
+        shutil.copy(folder / "graph.json", site / name)
+    before = sorted(site.iterdir())
+    said = refused(capsys, words[0], site, *words[1:])
+    assert said == f"error: {site} holds 2 plants: pumps, skid; name one, as {site / 'pumps'}"
+    assert sorted(site.iterdir()) == before
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("catalog", "list", "MISSING"), ("compare", "FOLDER", "MISSING"), ("evaluate", "FOLDER", "MISSING"),
+        ("compare", "FOLDER", "MISSING", "--map", "MISSING"), ("vocabulary", "show", "MISSING"),
+        ("config", "--config", "MISSING"), ("plan", "FOLDER", "--check", "MISSING"),
+        ("simulate", "FOLDER", "--scenario", "MISSING"), ("facts", "MISSING"),
+        ("label", "FOLDER", "--labeler", "lvlm", "--batch-results", "MISSING"),
+    ],
+    ids=" ".join,
+)  # fmt: skip
+def test_a_file_that_is_not_there_is_said_to_be_missing(capsys, folder, tmp_path, words):
+    missing = tmp_path / "missing"
+    places = {"FOLDER": folder, "MISSING": missing}
+    assert refused(capsys, *(places.get(word, word) for word in words)) == (
+        f"error: {missing}: no such file; check the path"
+    )

@@ -61,7 +61,7 @@ def test_units_without_a_line_are_named_where_others_have_one():
 def test_relations_of_the_paper_are_counted_apart():
     found = summarize(graphs.valve_line())
     assert (found.n_connected, found.n_related) == (2, 1)
-    assert any("1 relation by Algorithm 1" in line for line in summary_lines(found))
+    assert any("1 pair of units (Algorithm 1 of the paper)" in line for line in summary_lines(found))
     assert not any("Algorithm 1" in line for line in summary_lines(summarize(pumping())))
 
 

@@ -45,7 +45,7 @@ def test_a_hand_grips_a_wheel_at_its_rim_and_a_lever_along_it_and_no_needle(tabl
 
 def test_what_nobody_can_turn_is_listed_with_the_reason(table):
     assert table["immovable"] == [
-        {"tag": "G-2", "unit": "unit-G-2", "reason": "no needle in the source; one can be drawn"}
+        {"tag": "G-2", "unit": "unit-G-2", "reason": "no needle in the source; 'cadgraph simulate --needles' draws one"}
     ]
 
 

@@ -18,6 +18,7 @@ __all__ = [
     "ANSWER",
     "BATCH",
     "CATALOG",
+    "CHECK_PATH",
     "CONFIG",
     "CORRECTIONS",
     "DEXPI",
@@ -50,6 +51,9 @@ __all__ = [
 ]
 
 _KB, _MB = 1 << 10, 1 << 20
+
+CHECK_PATH = "check the path"
+"""What to do where a file that somebody named isn't there."""
 
 
 @dataclass(frozen=True)
@@ -129,7 +133,9 @@ def most_unpacked(packed: int, most: int) -> int:
     return min(most, 16 * _MB + 40 * packed)
 
 
-def read_bytes_within(path: str | Path, limit: Limit, error: type[Exception], remedy: str) -> bytes:
+def read_bytes_within(
+    path: str | Path, limit: Limit, error: type[Exception], remedy: str, missing: str = CHECK_PATH
+) -> bytes:
     """The content of a file, if it isn't larger than its kind can be.
 
     A file that grows while it is read, or a pipe, is read no further than the limit.
@@ -139,9 +145,11 @@ def read_bytes_within(path: str | Path, limit: Limit, error: type[Exception], re
         limit: of its kind.
         error: class of the error where it can't be read.
         remedy: what to do then, as the end of a message.
+        missing: likewise where no such file is there.
 
     Raises:
-        error: it is a device, can't be read, or is too large; the message names the file, its size and the limit.
+        error: it is missing, a device, can't be read, or is too large; the message names the file, its size and the
+            limit.
     """
     source = Path(path)
     try:
@@ -151,6 +159,8 @@ def read_bytes_within(path: str | Path, limit: Limit, error: type[Exception], re
             status = source.stat()
             size = status.st_size if stat.S_ISREG(status.st_mode) else 0
             content = file.read(limit.most + 1) if size <= limit.most else b""
+    except FileNotFoundError as failure:
+        raise error(f"{path}: no such file; {missing}") from failure
     except OSError as failure:
         raise error(f"{path}: can't be read ({failure.strerror}); {remedy}") from failure
     except ValueError as failure:
@@ -162,12 +172,14 @@ def read_bytes_within(path: str | Path, limit: Limit, error: type[Exception], re
     return content
 
 
-def read_text_within(path: str | Path, limit: Limit, error: type[Exception], remedy: str) -> str:
+def read_text_within(
+    path: str | Path, limit: Limit, error: type[Exception], remedy: str, missing: str = CHECK_PATH
+) -> str:
     """The text of a file in UTF-8, with or without a byte order mark, lines ending in line feeds.
 
     Args and errors are those of :func:`read_bytes_within`; what is no UTF-8 is an error, too.
     """
-    return decoded(read_bytes_within(path, limit, error, remedy), path, error, remedy)
+    return decoded(read_bytes_within(path, limit, error, remedy, missing), path, error, remedy)
 
 
 def decoded(content: bytes, path: str | Path, error: type[Exception], remedy: str) -> str:

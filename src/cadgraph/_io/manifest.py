@@ -13,8 +13,9 @@ from typing import Any
 
 from cadgraph._io.digest import sha256_of
 from cadgraph._io.json_rows import json_rows
-from cadgraph._io.limits import Limit, read_bytes_within
+from cadgraph._io.limits import CHECK_PATH, Limit, read_bytes_within
 from cadgraph._io.staging import result_path
+from cadgraph._io.text import natural_key
 from cadgraph.errors import CadGraphError, FormatError
 
 __all__ = [
@@ -27,7 +28,9 @@ __all__ = [
     "Manifest",
     "behind",
     "changed_by_others",
+    "graphs_in",
     "manifest_in",
+    "no_graph",
     "of_an_earlier_graph",
     "read_checked",
 ]
@@ -50,6 +53,7 @@ _MOST = Limit(1 << 20, "a manifest")
 _TRIES, _PAUSE = 3, 0.05  # looks at a file that is being replaced; s between two
 _HEAD = 200  # bytes in which the mark stands
 _REMEDY = "build the graph anew"
+_MOST_NAMES = 12  # plants that a message names
 
 
 @dataclass(frozen=True)
@@ -151,6 +155,30 @@ def read_checked(path: Path, limit: Limit, error: type[CadGraphError], remedy: s
         f"{path}: not what cadgraph wrote with the other files here, as {MANIFEST} says; {_REMEDY}, or remove "
         f"{MANIFEST} to take it as it is"
     )
+
+
+def graphs_in(folder: Path) -> list[str]:
+    """The names of the folders in a folder that hold a graph each, as a build of many scenes makes them, in order."""
+    found = (graph.parent.name for graph in folder.glob(f"*/{GRAPH_FILE}") if graph.is_file())
+    return sorted((name for name in found if not name.startswith(".")), key=natural_key)
+
+
+def no_graph(file: Path) -> str:
+    """What to say where a ``graph.json`` is missing: which plants its folder holds instead, or what makes one.
+
+    Args:
+        file: its place, or what was named instead and isn't there.
+    """
+    if file.name != GRAPH_FILE:
+        return f"{file}: no such file or folder; {CHECK_PATH}"
+    folder = file.parent
+    names = graphs_in(folder)
+    if not names:
+        return f"{file}: no such file; 'cadgraph build' makes it"
+    more = f" and {len(names) - _MOST_NAMES:,} more" if len(names) > _MOST_NAMES else ""
+    which = f"{len(names):,} plants" if len(names) > 1 else "1 plant"
+    shown = ", ".join(names[:_MOST_NAMES]) + more
+    return f"{folder} holds {which}: {shown}; name {'one' if len(names) > 1 else 'it'}, as {folder / names[0]}"
 
 
 def of_an_earlier_graph(folder: Path) -> tuple[str, ...]:

@@ -17,7 +17,7 @@ _TEXTS = re.compile(r"'(?:[^']|'')*'|--[^\n]*|/\*.*?\*/", re.DOTALL)
 _QUOTED = re.compile(r'(\bas\s+)?"((?:[^"]|"")+)"', re.IGNORECASE)
 _UNKNOWN = re.compile(r"no such (table|column|function): (?:\w+\.)?(\w+)")
 
-DESCRIPTION = """Counts, lists, joins by one SQLite SELECT; null: unknown.
+DESCRIPTION = """Count, list, join by one SQLite SELECT; null: unknown.
 Not for ways along pipes: trace, route, isolate, what_if.
 unit(tag,type,kind,likely_kind,system,region,level,x,y,z,low,high,reach_height,reach,pipes)
 point(name,what,system,x,y,z) units, junctions, ends

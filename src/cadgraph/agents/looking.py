@@ -136,7 +136,7 @@ def find(
     region: Annotated[str, "north, 'south east', middle..."] = "",
     level: Annotated[str, "ground, or a platform's name"] = "",
     near: Annotated[str, "tag, or 'x,y,z'"] = "",
-    within: Annotated[float, "m from near"] = 0.0,
+    within: Annotated[float, "metres from near"] = 0.0,
     reach: Literal["any", "floor", "platform", "out of reach"] = "any",
     sort: Literal["auto", "tag", "distance", "height"] = "auto",
     page: int = 1,

@@ -116,52 +116,53 @@ def _short(schema: Mapping[str, Any]) -> dict[str, Any]:
 TOOLS: tuple[Tool, ...] = (
     Tool(
         "overview",
-        "Start here: extent, units by kind, systems, what is not known.",
+        "Sum up: extent, units by kind, systems, what is not known.",
         looking.overview,
     ),
     Tool(
         "find",
-        "Lists and counts units (or parts, junctions, ends), with places in m; distances straight.",
+        "List and count units (or parts, junctions, ends), with places in m; distances straight.",
         looking.find,
     ),
-    Tool("describe", "One thing: kind, place, ports, parts, what turns.", describing.describe),
+    Tool("describe", "Describe one thing: kind, place, ports, parts, what turns.", describing.describe),
     Tool(
         "neighbors",
-        "What is next along pipes (units, ends), or which parts touch.",
+        "List what is next along pipes (units, ends), or touches.",
         walking.neighbors,
     ),
     Tool(
         "trace",
-        "All it feeds (downstream) or all that feeds it (upstream), in order, with distances along pipes.",
+        "List what it feeds (downstream) or what feeds it (upstream), in order, with distances along pipes.",
         walking.trace,
     ),
-    Tool("route", "Shortest way along pipes between two units, either way of flow.", walking.route),
+    Tool("route", "Find the shortest way along pipes, either way of flow.", walking.route),
     Tool(
         "isolate",
-        "Valves to close so that nothing can flow to a unit. Repeat its doubts and what stays open: people act on it.",
+        "List valves to close so nothing can flow to a unit. Repeat its doubts and what stays open: people act on it.",
         walking.isolate,
     ),
     Tool(
         "what_if",
-        "What is cut off from its supply when valves are closed. About flow, not safety: for opening a unit use "
+        "Say what loses its supply when valves are closed. About flow, not safety: for opening a unit use "
         "isolate. UNKNOWN stays unknown. SIMULATED rests on assumptions.",
         walking.what_if,
     ),
-    Tool("lines", "Line list: from, to, length, DN, flow, what stands in each line in order.", walking.lines),
+    Tool("lines", "List lines: from, to, length, DN, flow, what stands in each line in order.", walking.lines),
     Tool(
         "measure",
-        "How far apart: straight, in plan, height, compass, above or below, along pipes.",
+        "Measure distances: straight, in plan, height, compass, above or below, along pipes.",
         measuring.measure,
     ),
     Tool(
         "approach",
-        "How people get at a unit: ways, where to stand, operator height, where a gauge is seen from.",
+        "Say how to get at a unit: ways, where to stand, operator height, where a gauge is seen from.",
         approaching.approach,
     ),
     Tool("query", asking_sql.DESCRIPTION, asking_sql.query),
     Tool(
         "plan",
-        "A checked, short round to read gauges and turn valves: ways, ladders, what steps cut off. Repeat ! and ?.",
+        "Plan a checked, short round to read gauges and turn valves: ways, ladders, what steps cut off. "
+        "Repeat ! and ?.",
         planning.plan,
     ),
 )

@@ -13,12 +13,38 @@ from typing import Annotated, Any, Literal, Union, get_args, get_origin
 import typer
 from pydantic.fields import FieldInfo
 
+from cadgraph.agents.sql.schema import TABLES
 from cadgraph.agents.tools import TOOLS, Tool
 from cadgraph.cli.application import app
 from cadgraph.cli.options import GraphArgument
+from cadgraph.cli.panels import ASK, NETWORK
 from cadgraph.cli.screen import say, say_json
 
-PANEL = "Questions, as agents ask them"
+_PANELS = {"neighbors": NETWORK, "route": NETWORK, "what_if": NETWORK}
+"""The groups of the help that commands belong to, but for those among what agents ask."""
+
+_THING = "a tag (V-003), an id or a mesh path"
+_HELPS = {
+    "id": f"Of what: {_THING}.",
+    "start": f"Where the way begins: {_THING}.",
+    "end": f"Where the way ends: {_THING}.",
+    "a": f"From what: {_THING}.",
+    "b": f"To what: {_THING}.",
+    "target": f"What to get at: {_THING}.",
+    "system": "Only of this system, e.g. system-001.",
+    "by": "What counts as next.",
+    "reach": "Only what is reached from there.",
+    "sort": "What comes first.",
+    "page": "Which page of a long answer, counted from 1.",
+}
+"""What arguments mean that models need no words for."""
+
+_QUERY = """Count, list and join by one SQLite SELECT.
+
+Ways along pipes are asked for by trace, route, isolate and what-if. What is null is unknown; metres; z is up, y north.
+The tables, whose columns docs/query.md explains:
+
+"""
 _JSON = Annotated[bool, typer.Option("--json", help="Print the whole answer as JSON.")]
 
 
@@ -29,7 +55,15 @@ def _register(tool: Tool) -> None:
     if name not in own:
         # In the list of commands the first sentence says enough; the rest is told by --help.
         short = re.split(r"[.;:](?:\s|$)", tool.description, maxsplit=1)[0] + "."
-        app.command(name, help=tool.description, short_help=short, rich_help_panel=PANEL)(_command(tool))
+        panel = _PANELS.get(tool.name, ASK)
+        app.command(name, help=_help(tool), short_help=short, rich_help_panel=panel)(_command(tool))
+
+
+def _help(tool: Tool) -> str:
+    """What a person is told of a tool: as a model is, but that each table has a line of its own."""
+    if tool.name != "query":
+        return tool.description
+    return _QUERY + "\n".join(f"- {name}: {', '.join(table.columns)}" for name, table in TABLES.items())
 
 
 def _command(tool: Tool) -> Callable[..., None]:
@@ -58,6 +92,7 @@ def _command(tool: Tool) -> Callable[..., None]:
 def _parameter(given: inspect.Parameter) -> inspect.Parameter:
     """A parameter of a tool as an argument of its command, or as an option where it has a default."""
     kind, text = _type_and_text(given.annotation)
+    text = _sentence(text) or _HELPS.get(given.name, "")
     only, metavar = inspect.Parameter.KEYWORD_ONLY, given.name.upper()
     if given.default is inspect.Parameter.empty:
         argument = typer.Argument(metavar=f"{metavar}..." if kind == list[str] else metavar, help=text)
@@ -67,7 +102,8 @@ def _parameter(given: inspect.Parameter) -> inspect.Parameter:
         return inspect.Parameter(
             given.name, only, default=False, annotation=Annotated[bool, typer.Option(flag, help=text)]
         )
-    text = "Of a long answer, counted from 1." if given.name == "page" else text
+    choices = get_args(given.annotation) if get_origin(given.annotation) is Literal else ()
+    metavar = "|".join(map(str, choices)) or metavar
     option = typer.Option(flag, metavar=metavar, help=text, show_default=bool(given.default))
     if kind == list[str]:
         return inspect.Parameter(given.name, only, default=None, annotation=Annotated[list[str] | None, option])
@@ -82,11 +118,16 @@ def _type_and_text(annotation: Any) -> tuple[Any, str]:
         notes = tuple(found)
     text = next((note.description or "" for note in notes if isinstance(note, FieldInfo)), "")
     if get_origin(annotation) is Literal:
-        return str, text or f"{', '.join(map(str, get_args(annotation)))}."
+        return str, text
     if get_origin(annotation) in (Union, UnionType):
         several = [each for each in get_args(annotation) if each is not NoneType]
         return (list[str] if list[str] in several else several[0]), text
     return annotation, text
+
+
+def _sentence(text: str) -> str:
+    """Words for a model as a person reads them in a help: with a capital and a full stop."""
+    return text and text[0].upper() + text[1:] + "." * (text[-1] not in ".!?")
 
 
 def straight(text: str) -> str:

@@ -13,6 +13,7 @@ from rich.markup import escape
 
 from cadgraph import __version__
 from cadgraph._io.text import printable
+from cadgraph.cli.panels import Root
 from cadgraph.cli.plugins import add_installed
 from cadgraph.cli.screen import err, out
 from cadgraph.cli.signals import Stopped, stoppable
@@ -21,6 +22,7 @@ from cadgraph.errors import CadGraphError
 __all__ = ["app", "main"]
 
 app = typer.Typer(
+    cls=Root,
     no_args_is_help=True,
     add_completion=False,
     rich_markup_mode="markdown",

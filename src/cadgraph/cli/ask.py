@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 from rich.markup import escape
 
-from cadgraph.cli.agents import PANEL, straight
+from cadgraph.cli.agents import straight
 from cadgraph.cli.application import app
 from cadgraph.cli.options import GraphArgument
+from cadgraph.cli.panels import ASK
 from cadgraph.cli.screen import err, out, say_json
 from cadgraph.errors import AskError
 
@@ -36,7 +37,13 @@ _Key = Annotated[str, typer.Option("--key-variable", metavar="NAME", help="Envir
 _Steps = Annotated[int, typer.Option("--max-steps", min=2, max=100, help="Turns of the model at most.")]
 _Tokens = Annotated[int, typer.Option("--max-tokens", min=1000, help="Sent and answered in all, as the server counts.")]
 _Cost = Annotated[
-    float | None, typer.Option("--max-cost", min=0.0, help="At most so many US dollars, by the price table.")
+    float | None,
+    typer.Option(
+        "--max-cost",
+        min=0.0,
+        show_default="no limit",
+        help="At most so many US dollars, by the price table.",
+    ),
 ]
 _Prices = Annotated[
     str,
@@ -49,10 +56,10 @@ _Timeout = Annotated[
 ]
 
 
-@app.command(rich_help_panel=PANEL)
+@app.command(rich_help_panel=ASK)
 def ask(
     graph: GraphArgument,
-    question: Annotated[str, typer.Argument(metavar="QUESTION", help="In words: 'which valves isolate P-001?'")],
+    question: Annotated[str, typer.Argument(metavar="QUESTION", help="In words, e.g. 'which valves isolate P-001?'.")],
     model: _Model = "",
     base_url: _Url = "",
     key_variable: _Key = "OPENAI_API_KEY",

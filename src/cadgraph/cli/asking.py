@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import functools
 import inspect
+import shlex
 import sys
 import time
-from collections.abc import Callable
-from dataclasses import MISSING, dataclass, fields
+from collections.abc import Callable, Sequence
+from dataclasses import MISSING, Field, dataclass, fields
 from pathlib import Path
 from typing import Annotated, Any, TypeVar, get_type_hints
 
@@ -15,13 +16,14 @@ import typer
 from rich.markup import escape
 
 from cadgraph.cli.screen import err, out
-from cadgraph.config import Config
+from cadgraph.config import Config, LvlmConfig
 from cadgraph.model.graph import SceneGraph
 
 __all__ = ["AskingOptions", "asks"]
 
 _PANEL = "Vision-language model"
 _EVERY = 5.0  # s between two lines on how far it is
+_SET = LvlmConfig()  # what counts where an option isn't given
 
 _F = TypeVar("_F", bound=Callable[..., Any])
 
@@ -37,19 +39,36 @@ class AskingOptions:
     labeler_: Annotated[
         str | None,
         _option(
-            "--labeler", metavar="WHO", help="embedded (the default), lvlm, embedded+lvlm (where unsure), or none."
+            "--labeler",
+            metavar="embedded|lvlm|embedded+lvlm|none",
+            show_default="embedded, or as set",
+            help="Who labels; embedded+lvlm asks the model where the embedded one is unsure.",
         ),
     ] = None
-    model: Annotated[str | None, _option("--model", metavar="NAME", help="Of the model, as the server knows it.")] = (
-        None
-    )
-    base_url: Annotated[
-        str | None, _option("--base-url", metavar="URL", help="A compatible server: vLLM, Ollama, LM Studio, Azure...")
+    model: Annotated[
+        str | None,
+        _option("--model", metavar="NAME", show_default=_SET.model, help="Of the model, as the server knows it."),
     ] = None
-    votes: Annotated[int | None, _option("--votes", min=1, help="Ask about so many of equal parts; most count.")] = None
+    base_url: Annotated[
+        str | None,
+        _option(
+            "--base-url",
+            metavar="URL",
+            show_default="OpenAI's own",
+            help="A compatible server: vLLM, Ollama, LM Studio, Azure...",
+        ),
+    ] = None
+    votes: Annotated[
+        int | None,
+        _option("--votes", min=1, show_default=str(_SET.votes), help="Ask about so many of equal parts; most count."),
+    ] = None
     hints: Annotated[bool, _option("--hints", help="Tell it what geometry knows: form, repeats, neighbours.")] = False
-    max_questions: Annotated[int | None, _option("--max-questions", min=0, help="At most so many questions.")] = None
-    max_cost: Annotated[float | None, _option("--max-cost", min=0.0, help="At most so many US dollars.")] = None
+    max_questions: Annotated[
+        int | None, _option("--max-questions", min=0, show_default="no limit", help="At most so many questions.")
+    ] = None
+    max_cost: Annotated[
+        float | None, _option("--max-cost", min=0.0, show_default="no limit", help="At most so many US dollars.")
+    ] = None
     yes: Annotated[bool, _option("--yes", "-y", help="Don't ask whether the estimate is fine.")] = False
     dry_run: Annotated[bool, _option("--dry-run", help="Write prompts and pictures, and ask nobody.")] = False
     batch: Annotated[bool, _option("--batch", help="Write requests for the provider's batch interface.")] = False
@@ -117,7 +136,8 @@ class AskingOptions:
         from cadgraph.labelers.lvlm.setup import Run
 
         mode = "dry" if self.dry_run else "batch" if self.batch else "ask"
-        values = {"mode": mode, "keep_renders": self.keep_renders, "note": _Note(mode), **more}
+        values = {"mode": mode, "keep_renders": self.keep_renders, **more}
+        values.setdefault("note", _Note(values["mode"]))
         if values["mode"] == "ask":
             confirm: Callable[[Any], bool] = functools.partial(_confirmed, progress, self.yes)
         else:
@@ -141,18 +161,31 @@ class AskingOptions:
         for finding in (one for one in graph.diagnostics if one.code.startswith("lvlm-")):
             err.print(f"[dim]{'':<15}[/]{escape(finding.message)}")
 
-    def tell_written(self, labeler: Any) -> None:
-        """Says what a run that asks nobody wrote, and what to do with it."""
+    def tell_written(self, labeler: Any, folder: Path) -> None:
+        """Says what a run that asks nobody wrote, and the command that takes the answers.
+
+        Args:
+            labeler: that asked.
+            folder: of the results.
+        """
         answerer = labeler.asking.answerer
         files = [str(path) for path in getattr(answerer, "files", ())]
         where = ", ".join(files) if self.batch else str(answerer.folder)
-        way = "--batch-results FILE" if self.batch else f"--from-folder {where}"
+        way = "--batch-results FILE" if self.batch else f"--from-folder {shlex.quote(where)}"
         out.print(f"wrote {labeler.estimate.questions:,} questions: {escape(where)}; no result was touched")
-        out.print(f"[dim]with answers:[/] cadgraph label FOLDER {escape(way)}")
+        out.print(f"[dim]with answers:[/] cadgraph label {escape(f'{shlex.quote(str(folder))} {way}')}")
 
 
-def asks(command: _F) -> _F:
-    """Gives a command the options of :class:`AskingOptions` in place of its parameter of that type."""
+def asks(*without: str) -> Callable[[_F], _F]:
+    """Gives a command the options of :class:`AskingOptions` in place of its parameter of that type.
+
+    Args:
+        without: fields whose options mean nothing to it.
+    """
+    return functools.partial(_with_options, [field for field in fields(AskingOptions) if field.name not in without])
+
+
+def _with_options(options: Sequence[Field[Any]], command: _F) -> _F:
     hints = get_type_hints(command, include_extras=True)
     signature = inspect.signature(command)
     name = next(key for key, kind in hints.items() if kind is AskingOptions)
@@ -165,12 +198,12 @@ def asks(command: _F) -> _F:
             default=inspect.Parameter.empty if field.default is MISSING else field.default,
             annotation=types[field.name],
         )
-        for field in fields(AskingOptions)
+        for field in options
     ]
 
     @functools.wraps(command)
     def wrapped(**values: Any) -> Any:
-        mine = {field.name: values.pop(field.name) for field in fields(AskingOptions)}
+        mine = {field.name: values.pop(field.name) for field in options}
         return command(**values, **{name: AskingOptions(**mine)})
 
     parameters = [*(p.replace(kind=inspect.Parameter.KEYWORD_ONLY) for p in own), *added]

@@ -26,6 +26,7 @@ from cadgraph.cli.options import (
     read_flows,
     settings_of,
 )
+from cadgraph.cli.panels import BUILD
 from cadgraph.cli.screen import bars, err, named, out, tell, tell_built, tell_next
 from cadgraph.config import Config
 from cadgraph.errors import CadGraphError
@@ -34,8 +35,8 @@ if TYPE_CHECKING:
     from cadgraph.model.graph import SceneGraph
 
 
-@app.command(cls=BuildCommand)
-@asks
+@app.command(cls=BuildCommand, rich_help_panel=BUILD)
+@asks()
 def build(
     scenes: Annotated[
         list[Path],
@@ -64,7 +65,7 @@ def build(
         list[str] | None,
         typer.Option(
             "--flow",
-            metavar="FLOW",
+            metavar="A -> B",
             help="What flows where, as 'P-001 -> T-001', or a file of such lines. May be repeated.",
         ),
     ] = None,
@@ -88,7 +89,7 @@ def build(
         ),
     ] = None,
     tiles: Annotated[
-        int | None, typer.Option("--tiles", min=1, help="Tiles that the site is cut into; by its size if not given.")
+        int | None, typer.Option("--tiles", min=1, show_default="by its size", help="Tiles that the site is cut into.")
     ] = None,
     ray: Annotated[
         str | None,
@@ -162,7 +163,7 @@ def _build_many(scenes: list[Path], output: Path, config: Config, **more: Any) -
     out.print(f"[dim]{len(built)} scenes[/]  [bold]{escape(str(output))}[/]")
 
 
-@app.command()
+@app.command(rich_help_panel=BUILD)
 def demo(
     output: Annotated[Path, typer.Option("--output", "-o", metavar="FOLDER", help="Where the results go.")] = Path(
         "demo"

@@ -12,6 +12,7 @@ from rich.markup import escape
 
 from cadgraph.cli.application import app
 from cadgraph.cli.options import WhoOption, WhyOption
+from cadgraph.cli.panels import CORRECT
 from cadgraph.cli.screen import bars, out, say_json, tell_consequences, tell_lost, tell_state
 
 if TYPE_CHECKING:
@@ -27,12 +28,12 @@ def _pair(name: str, metavar: str, text: str) -> Any:
     return typer.Option(name, metavar=metavar, help=text)
 
 
-@app.command()
+@app.command(rich_help_panel=CORRECT)
 def correct(
     folder: _Folder,
     label: Annotated[
         list[str] | None,
-        typer.Option("--label", metavar="PART=LABEL", help="What a part is, and its repeats. May be repeated."),
+        typer.Option("--label", metavar="PART=LABEL", help="What a part is, as relabel says it. May be repeated."),
     ] = None,
     forget: Annotated[
         list[str] | None, typer.Option("--forget", metavar="PART", help="Take the label of a part back.")
@@ -59,7 +60,7 @@ def correct(
         list[str] | None,
         typer.Option(
             "--flow",
-            metavar="FLOW",
+            metavar="A -> B",
             help="Which way it flows between two that are connected: 'P-001 -> V-002'; 'P-001 ? V-002' takes it back.",
         ),
     ] = None,
@@ -81,7 +82,7 @@ def correct(
     ] = None,
     report: Annotated[bool, typer.Option("--report/--no-report", help="Draw pictures and write report.html.")] = True,
 ) -> None:
-    """Correct units, joints, directions of flow, tags and the ground; also labels, several at once.
+    """Correct units, joints, directions of flow, tags and the ground; also several labels at once (relabel: one).
 
     Parts are named by id or source path, units by tag. All that is given is one correction: it is done as a whole or,
     where something can't be, not at all. It is kept in corrections.json in the folder, which a later 'cadgraph build'
@@ -121,7 +122,7 @@ def correct(
     tell_state(done.outcome.earlier, done.outcome.removed)
 
 
-@app.command()
+@app.command(rich_help_panel=CORRECT)
 def corrections(
     folder: _Folder, as_json: Annotated[bool, typer.Option("--json", help="Print as JSON.")] = False
 ) -> None:

@@ -20,6 +20,7 @@ from cadgraph.cli.options import (
     UpOption,
     settings_of,
 )
+from cadgraph.cli.panels import BUILD
 from cadgraph.cli.screen import out
 
 if TYPE_CHECKING:
@@ -28,7 +29,7 @@ if TYPE_CHECKING:
 _WIDEST = 60  # characters of a value that are shown
 
 
-@app.command()
+@app.command(rich_help_panel=BUILD)
 def facts(
     scene: Annotated[Path, typer.Argument(metavar="FILE", help="A CAD scene, of any format that is read.")],
     words: Annotated[

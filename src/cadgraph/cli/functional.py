@@ -13,12 +13,13 @@ from rich.markup import escape
 
 from cadgraph.cli.application import app
 from cadgraph.cli.options import GraphArgument
+from cadgraph.cli.panels import EXPORT, LOOK, NETWORK
 from cadgraph.cli.screen import err, out, say, say_json
 
 JsonOption = Annotated[bool, typer.Option("--json", help="Print as JSON.")]
 
 
-@app.command()
+@app.command(rich_help_panel=NETWORK)
 def lines(
     graph: GraphArgument,
     file: Annotated[Path | None, typer.Argument(metavar="[FILE]", help="With --csv or --json: write there.")] = None,
@@ -84,7 +85,7 @@ def _deliver(content: bytes, file: Path | None, n_lines: int) -> None:
     out.print(f"wrote {escape(str(file))}: {n_lines:,} lines")
 
 
-@app.command()
+@app.command(rich_help_panel=NETWORK)
 def trace(
     graph: GraphArgument,
     tag: Annotated[str, typer.Argument(metavar="TAG", help="Where to begin, e.g. V-003.")],
@@ -121,7 +122,7 @@ def trace(
     _show(text, trace_values(found), as_json)
 
 
-@app.command()
+@app.command(rich_help_panel=NETWORK)
 def isolate(
     graph: GraphArgument,
     tag: Annotated[str, typer.Argument(metavar="TAG", help="What to isolate, e.g. P-001.")],
@@ -157,7 +158,7 @@ def isolate(
         raise typer.Exit(1)
 
 
-@app.command()
+@app.command(rich_help_panel=LOOK)
 def diagram(
     graph: GraphArgument,
     output: Annotated[Path, typer.Option("--output", "-o", metavar="FILE", help="The drawing, e.g. plant.svg.")],
@@ -176,7 +177,7 @@ def diagram(
     out.print(f"wrote {escape(str(output))}")
 
 
-@app.command()
+@app.command(rich_help_panel=EXPORT)
 def compare(
     graph: GraphArgument,
     plan: Annotated[

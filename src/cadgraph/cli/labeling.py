@@ -23,10 +23,11 @@ from cadgraph.cli.options import (
     WhyOption,
     settings_of,
 )
+from cadgraph.cli.panels import CORRECT, LABEL, LOOK
 from cadgraph.cli.screen import bars, err, out, say_json, tell_consequences, tell_lost, tell_state
 
-catalogs = typer.Typer(no_args_is_help=True, help="Catalogues of your own parts: add to one, list it.")
-app.add_typer(catalogs, name="catalog")
+catalogs = typer.Typer(no_args_is_help=True, help="Add your own parts to a catalogue, or list one.")
+app.add_typer(catalogs, name="catalog", rich_help_panel=LABEL)
 
 if TYPE_CHECKING:
     from cadgraph.model.records import Part
@@ -44,7 +45,7 @@ _SceneOption = Annotated[Path | None, typer.Option("--scene", metavar="FILE", he
 _JsonOption = Annotated[bool, typer.Option("--json", help="Print as JSON.")]
 
 
-@app.command()
+@app.command(rich_help_panel=LOOK)
 def explain(
     graph: GraphArgument,
     which: Annotated[
@@ -75,7 +76,7 @@ def explain(
         out.print(f"[dim]{heading:<12}[/]{escape(text)}")
 
 
-@app.command()
+@app.command(rich_help_panel=CORRECT)
 def relabel(
     folder: Annotated[Path, typer.Argument(metavar="FOLDER", help="What 'cadgraph build' wrote.")],
     part: _PartArgument,
@@ -87,9 +88,10 @@ def relabel(
     scene: _SceneOption = None,
     report: Annotated[bool, typer.Option("--report/--no-report", help="Draw pictures and write report.html.")] = True,
 ) -> None:
-    """Correct the label of a part; its repeats follow, and softly what is much like it.
+    """Correct the label of one part; its repeats follow, and softly what is much like it.
 
-    The correction is kept in corrections.json in the folder: a later 'cadgraph build' into it applies it again.
+    For several labels at once, and for all else that can be wrong, there is 'cadgraph correct'. The correction is kept
+    in corrections.json in the folder: a later 'cadgraph build' into it applies it again.
     """
     from cadgraph.session.correct import amend
 

@@ -24,10 +24,11 @@ from cadgraph.cli.options import (
     settings_of,
     values_of,
 )
+from cadgraph.cli.panels import LABEL
 from cadgraph.cli.screen import bars, err, out, say, tell
 
-vocabularies = typer.Typer(no_args_is_help=True, help="The tree of labels: grow, show, check, merge.")
-app.add_typer(vocabularies, name="vocabulary")
+vocabularies = typer.Typer(no_args_is_help=True, help="Grow, show, check or merge the tree of labels.")
+app.add_typer(vocabularies, name="vocabulary", rich_help_panel=LABEL)
 
 _OutputOption = Annotated[Path, typer.Option("--output", "-o", metavar="FILE", help="The new tree (YAML).")]
 _TreeArgument = Annotated[
@@ -35,13 +36,14 @@ _TreeArgument = Annotated[
 ]
 
 
-@app.command()
-@asks
+@app.command(rich_help_panel=LABEL)
+@asks()
 def label(
     folder: Annotated[Path, typer.Argument(metavar="FOLDER", help="What 'cadgraph build' wrote; labelled anew.")],
     asking: AskingOptions,
     from_folder: Annotated[
-        Path | None, typer.Option("--from-folder", metavar="F", help="Read answers beside the questions of a dry run.")
+        Path | None,
+        typer.Option("--from-folder", metavar="FOLDER", help="Read answers beside the questions of a dry run."),
     ] = None,
     batch_results: Annotated[
         list[Path] | None,
@@ -54,7 +56,10 @@ def label(
     settings: SetOption = None,
     report: Annotated[bool, typer.Option("--report/--no-report", help="Draw pictures and write report.html.")] = True,
 ) -> None:
-    """Label a graph anew: by a model, by answers in a folder, or by the results of a batch."""
+    """Ask a labeler again for the labels of all parts: a model, a folder of answers, the results of a batch.
+
+    Corrections and labels from outside stay. To correct single parts use 'cadgraph relabel' or 'cadgraph correct'.
+    """
     from cadgraph.labelers.lvlm.setup import settings_of_questions
     from cadgraph.session.reopen import config_of, relabel
 
@@ -71,18 +76,23 @@ def label(
         labeler = asking.labeler(chosen, folder, progress, **more)
         outcome = relabel(folder, chosen, labeler, scene=scene, report=report, progress=progress)
     if labeler is not None and labeler.only_asks:
-        asking.tell_written(labeler)
+        asking.tell_written(labeler, folder)
         return
     tell(outcome)
     asking.tell(labeler, outcome.graph)
 
 
-@app.command("ask-folder")
+@app.command("ask-folder", rich_help_panel=LABEL)
 def ask_folder(
     folder: Annotated[Path, typer.Argument(metavar="FOLDER", help="What 'cadgraph build' wrote.")],
     to: Annotated[
         Path | None,
-        typer.Option("--to", metavar="F", help="Of the questions; FOLDER/lvlm/questions if left out."),
+        typer.Option(
+            "--to",
+            metavar="FOLDER",
+            show_default="lvlm/questions in FOLDER",
+            help="Where the questions are, or go.",
+        ),
     ] = None,
     check: Annotated[
         bool, typer.Option("--check", help="Write nothing new: say what is answered, open, malformed or astray.")
@@ -94,17 +104,24 @@ def ask_folder(
         bool, typer.Option("--hints", help="Tell what geometry knows: form, repeats, neighbours.")
     ] = False,
     max_questions: Annotated[
-        int | None, typer.Option("--max-questions", min=0, help="At most so many questions, those that help most.")
+        int | None,
+        typer.Option(
+            "--max-questions",
+            min=0,
+            show_default="no limit",
+            help="At most so many questions, those that help most.",
+        ),
     ] = None,
     scene: Annotated[
         Path | None, typer.Option("--scene", metavar="FILE", help="The scene, if it has been moved.")
     ] = None,
     settings: SetOption = None,
 ) -> None:
-    """Write questions as files that a person or a coding agent with eyes answers in place, or check their answers.
+    """Write questions about unsure parts as files for a person or a coding agent to answer, or check the answers.
 
-    The folder holds a SKILL.md that says how. Apply the answers with 'cadgraph label FOLDER --from-folder F'. With
-    --check the exit status is 1 where an answer can't be used or is to no question.
+    The folder of the questions holds a SKILL.md that says how to answer in place. Apply the answers with
+    'cadgraph label FOLDER --from-folder QUESTIONS'. With --check the exit status is 1 where an answer can't be used or
+    is to no question.
     """
     from cadgraph.labelers.lvlm.setup import FOLDER, QUESTIONS
     from cadgraph.labelers.lvlm.skill import check_answers, write_skill
@@ -133,7 +150,7 @@ def ask_folder(
 
 
 @vocabularies.command("grow")
-@asks
+@asks("labeler_", "votes", "hints", "yes", "batch", "paper_views")
 def grow_(
     scene: Annotated[Path, typer.Argument(metavar="SCENE", help="A CAD scene whose things need labels.")],
     output: _OutputOption,

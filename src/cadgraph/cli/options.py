@@ -47,7 +47,10 @@ MetadataOption = Annotated[
         "--use-metadata", help="Let what the file says of its parts count beside geometry: classes, names, joints."
     ),
 ]
-MethodOption = Annotated[str | None, typer.Option("--method", help="How to decide what touches: exact or paper.")]
+MethodOption = Annotated[
+    str | None,
+    typer.Option("--method", metavar="exact|paper", show_default=Config().method, help="How to decide what touches."),
+]
 UnitOption = Annotated[
     str | None,
     typer.Option("--unit", metavar="UNIT", help="Unit of the file's lengths, whatever it says: m, cm, mm, in, ft..."),
@@ -67,7 +70,9 @@ AssetRootOption = Annotated[
 ]
 ScaleOption = Annotated[
     float | None,
-    typer.Option("--scale", metavar="F", help="Multiply the file's lengths, in the unit it says (metres if none)."),
+    typer.Option(
+        "--scale", metavar="FACTOR", help="Multiply the file's lengths, in the unit it says (metres if none)."
+    ),
 ]
 StrictOption = Annotated[
     bool, typer.Option("--strict", help="Refuse a file of which geometry is lost: damaged, unreadable or not found.")

@@ -10,13 +10,14 @@ from rich.markup import escape
 
 from cadgraph.cli.application import app
 from cadgraph.cli.options import GraphArgument
+from cadgraph.cli.panels import SIMULATE
 from cadgraph.cli.screen import err, say, say_json
 
 if TYPE_CHECKING:
     from cadgraph.agents.plant import Plant
 
 
-@app.command()
+@app.command(rich_help_panel=SIMULATE)
 def plan(
     graph: GraphArgument,
     goals: Annotated[

@@ -8,6 +8,7 @@ from typing import Any
 
 import typer
 
+from cadgraph.cli.panels import EVALUATE, OTHERS
 from cadgraph.errors import MissingPackage
 
 __all__ = ["KNOWN", "add_installed"]
@@ -35,10 +36,11 @@ def add_installed(app: typer.Typer) -> None:
 
 def _add(app: typer.Typer, name: str, point: EntryPoint) -> None:
     command: Any = point.load()
+    panel = EVALUATE if name in KNOWN else OTHERS
     if isinstance(command, typer.Typer):
-        app.add_typer(command, name=name)
+        app.add_typer(command, name=name, rich_help_panel=panel)
     else:
-        app.command(name)(command)
+        app.command(name, rich_help_panel=panel)(command)
 
 
 def _missing(name: str, package: str) -> Callable[[typer.Context], None]:

@@ -11,6 +11,7 @@ from rich.markup import escape
 
 from cadgraph.cli.application import app
 from cadgraph.cli.options import ConfigOption, GraphArgument, SetOption, settings_of
+from cadgraph.cli.panels import BUILD, EXPORT, LOOK
 from cadgraph.cli.screen import (
     REMEDY,
     counts,
@@ -29,7 +30,7 @@ if TYPE_CHECKING:
     from cadgraph.query.summary import Summary
 
 
-@app.command()
+@app.command(rich_help_panel=LOOK)
 def show(
     graph: GraphArgument,
     as_json: Annotated[bool, typer.Option("--json", help="Print the summary as JSON.")] = False,
@@ -61,9 +62,8 @@ def show(
 
 def _scenes_in(folder: Path) -> list[str]:
     """The scenes of a run of many; none where a folder holds a graph itself, or is a file."""
-    from cadgraph._io.manifest import GRAPH_FILE, MANIFEST
+    from cadgraph._io.manifest import GRAPH_FILE, MANIFEST, graphs_in
     from cadgraph._io.staging import result_path
-    from cadgraph.session.many import graphs_in
 
     if not folder.is_dir() or any(result_path(folder / name).is_file() for name in (GRAPH_FILE, MANIFEST)):
         return []
@@ -109,7 +109,7 @@ def _state(graph: SceneGraph, path: Path) -> list[str]:
     return [*told, f"{source}; {REMEDY}"] if source else told
 
 
-@app.command()
+@app.command(rich_help_panel=EXPORT)
 def export(
     graph: GraphArgument,
     to: Annotated[
@@ -117,8 +117,8 @@ def export(
         typer.Option(
             "--to",
             metavar="FORMAT",
-            help="att, csv, dexpi, epanet, gltf, graphml, html, ifc, isometric, json, labels-csv, mjcf, networkx-json, "
-            "pcf, shards or usd.",
+            help="One of att, csv, dexpi, epanet, gltf, graphml, html, ifc, isometric, json, labels-csv, mjcf, "
+            "networkx-json, pcf, shards or usd.",
         ),
     ],
     output: Annotated[
@@ -173,7 +173,7 @@ def export(
         out.print(f"[dim]note[/]  {escape(note_line(note))}")
 
 
-@app.command("config")
+@app.command("config", rich_help_panel=BUILD)
 def config_(
     config: ConfigOption = None,
     settings: SetOption = None,

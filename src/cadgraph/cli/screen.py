@@ -265,7 +265,11 @@ def summary_lines(summary: Any) -> list[str]:
         ("connections", connection_words(summary)),
         ("ends", end_words(summary)),
         ("systems", f"{_count(summary.n_systems, 'connected network')} of pipes"),
-        *((("the paper", f"{_count(summary.n_related, 'relation')} by Algorithm 1"),) if summary.n_related else ()),
+        *(
+            (("related", f"{_count(summary.n_related, 'pair')} of units (Algorithm 1 of the paper)"),)
+            if summary.n_related
+            else ()
+        ),
         ("diagnostics", found),
         *(("ground", escape(words)) for words in summary.ground),
         *(("mind", escape(warning)) for warning in summary.warnings),

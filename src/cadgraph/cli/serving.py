@@ -13,6 +13,7 @@ from rich.markup import escape
 from cadgraph.cli.application import app
 from cadgraph.cli.correcting import user_name
 from cadgraph.cli.options import GraphArgument
+from cadgraph.cli.panels import ASK, LOOK
 from cadgraph.cli.screen import err, out
 from cadgraph.cli.signals import Stopped
 from cadgraph.errors import MissingExtra
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
     from cadgraph.agents.plants import Plants
 
 
-@app.command()
+@app.command(rich_help_panel=ASK)
 def serve(
     where: Annotated[
         Path,
@@ -99,10 +100,12 @@ def _close(plants: Plants) -> None:
         _say("corrections are kept, but the graph is not written; the next run makes up for that")
 
 
-@app.command()
+@app.command(rich_help_panel=LOOK)
 def picture(
     graph: GraphArgument,
-    target: Annotated[str, typer.Argument(help="Tag or id of a unit, part, junction, end, structure or system.")],
+    target: Annotated[
+        str, typer.Argument(metavar="TARGET", help="Tag or id of a unit, part, junction, end, structure or system.")
+    ],
     output: Annotated[
         Path | None, typer.Option("--output", "-o", metavar="FILE", help="The picture; ./TARGET.png by default.")
     ] = None,

@@ -12,12 +12,13 @@ from rich.markup import escape
 
 from cadgraph.cli.application import app
 from cadgraph.cli.options import GraphArgument
+from cadgraph.cli.panels import SIMULATE
 from cadgraph.cli.screen import err, out, say_json
 
 _PLAYED = 30.0  # s of a timetable, if nothing else is said
 
 
-@app.command()
+@app.command(rich_help_panel=SIMULATE)
 def simulate(
     graph: GraphArgument,
     changes: Annotated[
@@ -42,7 +43,7 @@ def simulate(
         ),
     ] = None,
     seconds: Annotated[
-        float | None, typer.Option("--seconds", help="With --play: how long, at most 600; 30 if not said.")
+        float | None, typer.Option("--seconds", show_default=f"{_PLAYED:g}", help="With --play: how long, at most 600.")
     ] = None,
     needles: Annotated[
         bool, typer.Option("--needles", help="Draw a needle in simulation.usda on every dial that has none.")

@@ -11,12 +11,13 @@ from rich.markup import escape
 
 from cadgraph.cli.application import app
 from cadgraph.cli.options import GraphArgument
+from cadgraph.cli.panels import SIMULATE
 from cadgraph.cli.screen import err, out
 
 _SHOWN = 20  # of what can't be done
 
 
-@app.command()
+@app.command(rich_help_panel=SIMULATE)
 def tasks(
     graph: GraphArgument,
     output: Annotated[Path, typer.Option("--output", "-o", metavar="FILE", help="The tasks, e.g. tasks.json.")],

@@ -13,12 +13,13 @@ from rich.markup import escape
 from cadgraph.cli.application import app
 from cadgraph.cli.correcting import user_name
 from cadgraph.cli.options import ConfigOption, SetOption, settings_of
+from cadgraph.cli.panels import LOOK
 from cadgraph.cli.screen import err, out
 from cadgraph.cli.signals import Stopped
 from cadgraph.errors import MissingExtra
 
 
-@app.command()
+@app.command(rich_help_panel=LOOK)
 def view(
     what: Annotated[
         Path, typer.Argument(metavar="WHAT", help="A folder that 'cadgraph build' wrote, or a scene to build first.")

@@ -19,7 +19,7 @@ from cadgraph._io.depth import MOST_LEVELS, is_too_deep
 from cadgraph._io.garbage import collector_paused
 from cadgraph._io.json_rows import read_json, write_json_rows
 from cadgraph._io.limits import GRAPH, decoded, read_text_within
-from cadgraph._io.manifest import GRAPH_FILE, read_checked
+from cadgraph._io.manifest import GRAPH_FILE, no_graph, read_checked
 from cadgraph._io.results import settle_if_free
 from cadgraph._io.run_folder import one_of_results
 from cadgraph._io.shard_files import FOLDER, sweep_shards
@@ -478,7 +478,12 @@ class SceneGraph:
         target = target / GRAPH_FILE if target.is_dir() else target
         settle_if_free(target.parent)
         remedy = "'cadgraph build' makes it"
-        content = read_checked(target, GRAPH, FormatError, remedy)
+        try:
+            content = read_checked(target, GRAPH, FormatError, remedy)
+        except FormatError as error:
+            if isinstance(error.__cause__, FileNotFoundError):
+                raise FormatError(no_graph(target)) from error
+            raise
         text = decoded(content, target, FormatError, remedy)
         try:
             data = read_json(text)

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from cadgraph._io.atomic import ensure_writable
 from cadgraph._io.digest import sha256_of
+from cadgraph._io.manifest import GRAPH_FILE, no_graph
 from cadgraph._io.run_folder import refuse_foreign
 from cadgraph._io.staging import result_path
 from cadgraph.config import Config
@@ -42,10 +43,9 @@ class Order:
             OutputError: the folder can't be written although results go there.
         """
         if self.source is None:
-            if not result_path(self.folder / "graph.json").is_file():
-                raise FormatError(
-                    f"{self.folder}: holds no graph.json; give a folder that 'cadgraph build' wrote, or a scene"
-                )
+            file = self.folder / GRAPH_FILE
+            if not result_path(file).is_file():
+                raise FormatError(no_graph(file))
             return
         if not self.source.is_file():
             raise LoadError(f"{self.source}: no such file; give a scene, or a folder that 'cadgraph build' wrote")

@@ -15,9 +15,8 @@ from typing import Any, Literal
 import cadgraph
 from cadgraph._io.atomic import write_atomically
 from cadgraph._io.digest import sha256_of
-from cadgraph._io.manifest import GRAPH_FILE, behind, changed_by_others, manifest_in
+from cadgraph._io.manifest import behind, changed_by_others, manifest_in
 from cadgraph._io.run_folder import at_work_in
-from cadgraph._io.text import natural_key
 from cadgraph.config import Config
 from cadgraph.distribute.hands import Call, Failure
 from cadgraph.distribute.site import hands_for
@@ -25,7 +24,7 @@ from cadgraph.errors import CadGraphError, FormatError
 from cadgraph.model.graph import SceneGraph
 from cadgraph.session.run import run
 
-__all__ = ["FOLDER", "BuiltScene", "build_many", "folders_of", "graphs_in"]
+__all__ = ["FOLDER", "BuiltScene", "build_many", "folders_of"]
 
 FOLDER = ".cadgraph-scenes"
 """The name of the run folder, within that of the results: it says which scenes are built, until all of them are."""
@@ -88,12 +87,6 @@ def folders_of(scenes: Sequence[Path]) -> list[str]:
             both = f"{scene} is given twice" if other == scene else f"{other} and {scene} have the same name"
             raise ValueError(f"{both}: both would be built into a folder {scene.stem}; build them one by one")
     return [scene.stem for scene in scenes]
-
-
-def graphs_in(folder: Path) -> list[str]:
-    """The names of the folders in a folder that hold a graph each, as ``build_many`` makes them, in order."""
-    found = (graph.parent.name for graph in folder.glob(f"*/{GRAPH_FILE}") if graph.is_file())
-    return sorted((name for name in found if not name.startswith(".")), key=natural_key)
 
 
 def build_many(

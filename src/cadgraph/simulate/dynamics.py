@@ -14,7 +14,7 @@ from cadgraph.model.records import Dial, Mechanism, Unit, points
 from cadgraph.model.scene import Faces, Floats, Scene
 from cadgraph.query.mechanisms import Immovable, immovable, joint_names
 
-__all__ = ["Capsule", "Device", "Moving", "find_devices", "grip", "needle_over", "without_joint"]
+__all__ = ["DRAWN_BY", "Capsule", "Device", "Moving", "find_devices", "grip", "needle_over", "without_joint"]
 
 Bools = npt.NDArray[np.bool_]
 
@@ -28,6 +28,8 @@ RIM_FORCE, LEVER_FORCE = 40.0, 60.0
 """What starts a wheel at its rim, a lever at its end [N]; ours."""
 BRISK = 5.0
 """Speed at which a valve brakes twice as hard as at rest [rad/s]; ours: most people turn a wheel slower than that."""
+DRAWN_BY = "'cadgraph simulate --needles'"
+"""What draws a needle that the source lacks, for whoever uses the command line."""
 SWEEP = 270.0
 """How far a needle goes over its dial [deg], clockwise from half past seven (EN 837-1)."""
 _LEAST_MASS, _LEAST_INERTIA = 0.005, 1e-6
@@ -139,16 +141,18 @@ def find_devices(graph: SceneGraph, scene: Scene, needles: bool = False) -> tupl
     return tuple(found)
 
 
-def without_joint(graph: SceneGraph, devices: Sequence[Device]) -> tuple[Immovable, ...]:
+def without_joint(graph: SceneGraph, devices: Sequence[Device], drawn_by: str = DRAWN_BY) -> tuple[Immovable, ...]:
     """The valves that nobody can turn and the gauges whose needle doesn't move, each with the reason.
 
     Args:
         graph: of a plant.
         devices: the joints that were found in it.
+        drawn_by: what draws a needle where its dial is known.
     """
     joined = {device.unit.id for device in devices}
+    remedy = f"; {drawn_by} draws one"
     gauges = tuple(
-        Immovable(unit.id, unit.tag, "no needle in the source" + ("" if unit.dial is None else "; one can be drawn"))
+        Immovable(unit.id, unit.tag, "no needle in the source" + ("" if unit.dial is None else remedy))
         for unit in graph.of_layer(Unit)
         if unit.id not in joined and "read" in unit.affordances
     )

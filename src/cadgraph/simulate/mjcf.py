@@ -87,7 +87,7 @@ def write_mjcf(
     write_atomically(model, ElementTree.tostring(root, encoding="unicode") + "\n")
     notes = tuple(
         Diagnostic("immovable", f"{printable(each.tag)} has no joint: {printable(each.reason)}")
-        for each in without_joint(graph, devices)
+        for each in without_joint(graph, devices, "needles=True of write_mjcf in Python")
     )
     return (model, *files), notes
 

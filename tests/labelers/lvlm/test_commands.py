@@ -1,4 +1,5 @@
 import json
+import shlex
 
 import pytest
 
@@ -244,6 +245,53 @@ def test_questions_are_answered_in_place_checked_and_applied(capsys, scene_file,
     assert (stored["ask"], stored["size"]) == ("all", 128)
 
 
+def test_only_the_questions_of_the_index_count(capsys, scene_file, tmp_path):
+    out = tmp_path / "out"
+    assert run(capsys, "build", scene_file, "-o", out, *SMALL)[0] == 0
+    asked = ("ask-folder", out, "--all", "--max-questions", "1", "--set", "lvlm.size=128")
+    assert "1 open" in run(capsys, *asked)[1]
+    questions = out / "lvlm" / "questions"
+    apply = ("label", out, "--from-folder", questions, "--no-report")
+    assert "no answer to the question (waiting for its answer)" in run(capsys, *apply)[2]
+    index = json.loads((questions / "index.json").read_text())
+    [name] = index
+    answer = plates.oracle(parts_in(scene_file))((questions / name / "prompt.md").read_text())
+    (questions / name / "answer.json").write_text(json.dumps(answer))
+    code, _, err = run(capsys, *apply)
+    assert code == 0
+    assert "parts have no answer" not in err
+    found, truth = labels_in(out), wanted(scene_file)
+    assert all(found[mesh] == truth[mesh] for mesh in index[name])
+    told = {one.code: one.message for one in SceneGraph.load(out).diagnostics}
+    assert told["lvlm-budget"].endswith("parts were not asked about: the questions there are about others")
+    assert SceneGraph.load(out).document.config["lvlm"]["max_questions"] is None
+
+
+def test_questions_about_something_else_are_an_error(capsys, scene_file, tmp_path):
+    out = tmp_path / "out"
+    assert run(capsys, "build", scene_file, "-o", out, *SMALL)[0] == 0
+    assert run(capsys, "ask-folder", out, "--all", "--set", "lvlm.size=128")[0] == 0
+    apply = ("label", out, "--from-folder", out / "lvlm" / "questions", "--no-report", "--set", "lvlm.size=256")
+    code, _, err = run(capsys, *apply)
+    assert code == 2
+    assert "none of the 3 questions there is one about this graph as it is set" in " ".join(err.split())
+
+
+def test_a_dry_run_ends_with_the_command_that_takes_its_answers(capsys, scene_file, tmp_path):
+    out = tmp_path / "the results"
+    assert run(capsys, "build", scene_file, "-o", out, *SMALL)[0] == 0
+    _, told, _ = run(capsys, "label", out, "--labeler", "lvlm", "--dry-run", "--no-report")
+    command = told.splitlines()[-1].partition(": cadgraph ")[2]
+    assert shlex.split(command) == ["label", str(out), "--from-folder", str(out / "lvlm" / "questions")]
+
+
+def test_growing_a_vocabulary_has_no_option_that_means_nothing_to_it(capsys, scene_file, tmp_path):
+    for option in ("--labeler", "--votes", "--hints", "--yes", "--batch", "--paper-views"):
+        code, _, err = run(capsys, "vocabulary", "grow", scene_file, "-o", tmp_path / "new.yaml", option)
+        assert code == 2
+        assert f"No such option: {option}" in err
+
+
 def test_questions_go_where_they_are_wanted(capsys, scene_file, tmp_path):
     out, to = tmp_path / "out", tmp_path / "for an agent"
     assert run(capsys, "build", scene_file, "-o", out, *SMALL)[0] == 0
@@ -340,7 +388,6 @@ def test_vocabulary_grows_with_the_source_of_each_addition(capsys, scene_file, t
             new,
             "--base-url",
             address,
-            "--yes",
             "--pictures",
             "2",
             "--set",

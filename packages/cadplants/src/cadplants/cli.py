@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 __all__ = ["plants"]
 
-plants = typer.Typer(no_args_is_help=True, help="Generated test plants with their ground truth.")
+plants = typer.Typer(no_args_is_help=True, help="Generate test plants with their ground truth, and check them.")
 
 
 _With = Annotated[
@@ -48,7 +48,10 @@ def make_plant(
         typer.Option("--output", "-o", metavar="FILE", help="The scene, e.g. field.usdc; its suffix is its format."),
     ],
     preset: Annotated[
-        str, typer.Option(help="skid, riser, tank, pumps, loop, manifold, station, rack, gallery, field or assortment.")
+        str,
+        typer.Option(
+            help="One of skid, riser, tank, pumps, loop, manifold, station, rack, gallery, field or assortment."
+        ),
     ] = "skid",
     seed: Annotated[int, typer.Option(min=0, help="Of everything that varies.")] = 0,
     style: Annotated[
@@ -84,7 +87,9 @@ def make_plant(
     ] = None,
     form: Annotated[
         str | None,
-        typer.Option("--format", help="usd, rvm, ifc, glb, obj, stl or step; by the suffix of --output by default."),
+        typer.Option(
+            "--format", help="One of usd, rvm, ifc, glb, obj, stl or step; by the suffix of --output by default."
+        ),
     ] = None,
     layout: Annotated[
         str | None,

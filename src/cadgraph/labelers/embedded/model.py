@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from cadgraph._io.arrays import read_arrays
-from cadgraph._io.limits import MODEL, read_bytes_within
+from cadgraph._io.limits import CHECK_PATH, MODEL, read_bytes_within
 from cadgraph.errors import LabelError
 from cadgraph.labelers.embedded.alike import find_alike
 from cadgraph.labelers.embedded.classifier import Classifier, Inputs
@@ -123,7 +123,9 @@ def read_model(path: str | Path) -> Model:
     Raises:
         LabelError: the file is missing or damaged, or of another version.
     """
-    return _parse(read_bytes_within(path, MODEL, LabelError, _REMEDY), str(path))
+    return _parse(
+        read_bytes_within(path, MODEL, LabelError, _REMEDY, f"{CHECK_PATH}, or reinstall cadgraph"), str(path)
+    )
 
 
 def _parse(content: bytes, name: str) -> Model:

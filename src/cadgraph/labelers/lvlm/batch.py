@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import IO, Any
 
-from cadgraph._io.limits import BATCH, REPLY, lines_within
+from cadgraph._io.limits import BATCH, CHECK_PATH, REPLY, lines_within
 from cadgraph.errors import LabelError, OutputError
 from cadgraph.labelers.lvlm.cache import Cache
 from cadgraph.labelers.lvlm.manner import Manner, body_of, encoded
@@ -134,6 +134,8 @@ def _rows(path: Path) -> Iterator[dict[str, Any]]:
                 if not isinstance(row, dict):
                     raise LabelError(f"{path}: line {number} is no JSON object; give the provider's file of results")
                 yield row
+    except FileNotFoundError as error:
+        raise LabelError(f"{path}: no such file; {CHECK_PATH}") from error
     except (OSError, UnicodeDecodeError) as error:
         raise LabelError(
             f"{path}: can't be read ({type(error).__name__}); give the provider's file of results"

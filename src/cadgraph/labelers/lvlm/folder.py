@@ -243,7 +243,8 @@ def read_index(folder: Path) -> dict[str, list[str]]:
         LabelError: it can't be read or is none.
     """
     path = folder / INDEX_FILE
-    content = _json(path, read_text_within(path, INDEX, LabelError, "write the questions with 'cadgraph ask-folder'"))
+    remedy = "write the questions with 'cadgraph ask-folder'"
+    content = _json(path, read_text_within(path, INDEX, LabelError, remedy, remedy))
     found: dict[str, list[str]] = {}
     for name, paths in content.items():
         question = _QUESTION.fullmatch(name)

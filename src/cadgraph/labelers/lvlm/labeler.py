@@ -78,6 +78,7 @@ class LvlmLabeler:
         gallery: draws the pictures of a scene.
         accuracy: how often the answers are right; what is usual if None.
         only_asks: whether no answer can come in this run: a dry run, or requests for a batch.
+        only: ids of the questions that somebody was asked, to whom this run leaves all others; None asks all.
 
     Attributes:
         former: gives the labels of a finished graph, which parts without an answer keep; None for none.
@@ -97,6 +98,7 @@ class LvlmLabeler:
         gallery: Callable[[Parts], Gallery] | None = None,
         accuracy: Accuracy | None = None,
         only_asks: bool = False,
+        only: Collection[str] | None = None,
     ) -> None:
         self.asking, self.way, self.embedded = asking, way or Way(), embedded
         self.proposals: Counter[tuple[str, str | None, str]] = Counter()
@@ -104,7 +106,7 @@ class LvlmLabeler:
         self.accuracy, self.only_asks = accuracy or Accuracy(), only_asks
         self.former: Labeler | None = None
         self.contradictions: Callable[[Sequence[Label | None], Probabilities], Collection[int]] | None = None
-        self._confirm, self._folder = confirm, folder
+        self._confirm, self._folder, self._only = confirm, folder, only
         self._gallery = gallery or (lambda parts: Gallery(parts.scene, paper=self.way.paper, size=asking.size))
 
     @property
@@ -123,7 +125,7 @@ class LvlmLabeler:
         round_ = _Round(self, parts, contacts, vocabulary, said)
         below = None if self.way.ask == "all" else self.way.below
         kinds = choose(find_question_groups(parts, self.way.per), round_.base, parts, round_.near, vocabulary, below)
-        planned, left_out = self._paid({kind: round_.questions(kind) for kind in kinds})
+        planned, left_out = self._paid(self._wanted({kind: round_.questions(kind) for kind in kinds}))
         self.estimate = self.asking.estimate([q for each in planned.values() for q in each], left_out=left_out)
         if not self._confirm(self.estimate):
             raise LabelError("nothing was asked: the estimate was not confirmed")
@@ -141,7 +143,7 @@ class LvlmLabeler:
         labels = round_.labels(settled, former)
         if self.way.repair:
             labels = repair(labels, parts, round_.near, vocabulary)
-        diagnostics = self._report(round_, kinds[len(planned) :], settled)
+        diagnostics = self._report(round_, [kind for kind in kinds if kind not in planned], settled)
         thresholds = round_.thresholds(labels, settled)
         sure = _SURE if said is None else said.sure
         return Labeling.judge(labels, thresholds, round_.beliefs.probabilities(), diagnostics, sure)
@@ -154,6 +156,23 @@ class LvlmLabeler:
         settled = round_.ask({kind: planned[kind] for kind in large})
         labels = round_.labels(settled, None)
         return settled | round_.ask({kind: round_.questions(kind, labels) for kind in small})
+
+    def _wanted(self, planned: _Planned) -> _Planned:
+        """The kinds that somebody was asked about: a folder or its settings may name fewer than there are.
+
+        Raises:
+            LabelError: nobody was asked any of these questions.
+        """
+        if not self._only:
+            return planned
+        # An index names one question of each kind, also where several are voted on.
+        found = {kind: each for kind, each in planned.items() if any(one.id in self._only for one in each)}
+        if planned and not found:
+            raise LabelError(
+                f"none of the {len(self._only):,} questions there is one about this graph as it is set; "
+                "write them anew with 'cadgraph ask-folder'"
+            )
+        return found
 
     def _paid(self, planned: _Planned) -> tuple[_Planned, int]:
         """Whole kinds that the budget pays for, and how many questions it leaves out."""
@@ -246,7 +265,8 @@ class LvlmLabeler:
             diagnostics.append(Diagnostic("lvlm-unanswered", message[:_MESSAGE], tuple(meshes)))
         rest = [paths[part] for kind in left_out for part in kind.parts]
         if rest:
-            message = f"{len(rest)} parts were not asked about: the budget was used where it helps more"
+            why = "the questions there are about others" if self._only else "the budget was used where it helps more"
+            message = f"{len(rest)} parts were not asked about: {why}"
             diagnostics.append(Diagnostic("lvlm-budget", message, tuple(rest)))
         if self.proposals:
             shown = ", ".join(f"{g}: {n}" for g, n, _ in sorted(self.proposals, key=str)[:5])

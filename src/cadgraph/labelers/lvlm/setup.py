@@ -15,7 +15,15 @@ from cadgraph.labelers.lvlm.asking import Asking, Budget, Tally
 from cadgraph.labelers.lvlm.batch import BatchWriter, read_results
 from cadgraph.labelers.lvlm.cache import Cache
 from cadgraph.labelers.lvlm.client import Client
-from cadgraph.labelers.lvlm.folder import DryRun, FolderAnswers, read_settings, some, write_settings
+from cadgraph.labelers.lvlm.folder import (
+    INDEX_FILE,
+    DryRun,
+    FolderAnswers,
+    read_index,
+    read_settings,
+    some,
+    write_settings,
+)
 from cadgraph.labelers.lvlm.joining import read_accuracy
 from cadgraph.labelers.lvlm.labeler import LvlmLabeler, Way
 from cadgraph.labelers.lvlm.price import Estimate, read_price
@@ -94,7 +102,13 @@ def make_labeler(config: Config, output: Path, run: Run | None = None) -> LvlmLa
         confirm=run.confirm if run.mode != "folder" else _free,
         accuracy=read_accuracy(settings.model, settings.accuracy, paper=settings.paper_views),
         only_asks=run.mode == "dry" or (run.mode == "batch" and not run.results),
+        only=_asked_in(run.answers) if run.mode == "folder" and run.answers is not None else None,
     )
+
+
+def _asked_in(folder: Path) -> frozenset[str] | None:
+    """The questions that the index of a folder names; None where it has no index."""
+    return frozenset(read_index(folder)) if (folder / INDEX_FILE).is_file() else None
 
 
 def make_asking(settings: LvlmConfig, folder: Path, run: Run) -> Asking:

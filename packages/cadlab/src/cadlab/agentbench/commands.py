@@ -15,7 +15,7 @@ __all__ = ["agentbench"]
 
 agentbench = typer.Typer(
     name="agentbench",
-    help="How well agents answer questions about generated plants, whose answers can be proved.",
+    help="Measure how well agents answer questions about generated plants, whose answers can be proved.",
     no_args_is_help=True,
 )
 SetArgument = Annotated[Path, typer.Argument(metavar="SET", help="What 'make' wrote: set.jsonl, or its folder.")]
@@ -77,10 +77,14 @@ def run_command(
     key_variable: Annotated[
         str, typer.Option(metavar="NAME", help="Environment variable that holds the key.")
     ] = "OPENAI_API_KEY",
-    max_questions: Annotated[int | None, typer.Option(min=1, help="Ask so many at most.")] = None,
+    max_questions: Annotated[
+        int | None, typer.Option(min=1, show_default="no limit", help="Ask so many at most.")
+    ] = None,
     max_steps: Annotated[int, typer.Option(min=2, max=100, help="Turns of the model for a question at most.")] = 12,
     max_tokens: Annotated[int, typer.Option(min=1000, help="Sent and answered for a question in all.")] = 40_000,
-    max_cost: Annotated[float | None, typer.Option(min=0.0, help="At most so many US dollars in all.")] = None,
+    max_cost: Annotated[
+        float | None, typer.Option(min=0.0, show_default="no limit", help="At most so many US dollars in all.")
+    ] = None,
     prices: Annotated[str, typer.Option(metavar="FILE", help="A price table (YAML); else the built-in one.")] = "",
     timeout: Annotated[float, typer.Option(min=1.0, help="Give up on one try after [s].")] = 120.0,
 ) -> None:
