@@ -288,11 +288,11 @@ def _operators(piping: Piping, piece: _Piece) -> set[int]:
 
 def _rests_on(piping: Piping, group: Group, piece: _Piece) -> bool:
     """Whether no line leads to a group at a piece, and it touches no other line; a lever may pass over one."""
-    gaps = {
-        line: piping.given.gaps[min(part, line), max(part, line)]
-        for part in group.parts
-        for line in piping.lines_near(part)
-    }
+    gaps: dict[int, float] = {}
+    for part in group.parts:
+        for line in piping.lines_near(part):
+            gap = piping.given.gaps[min(part, line), max(part, line)]
+            gaps[line] = min(gap, gaps.get(line, gap))
     own = min((gap for line, gap in gaps.items() if line in piece.parts), default=0.0)
     touched = {line for line, gap in gaps.items() if gap <= own + _TOUCH}
     return touched <= set(piece.parts) and piping.mounted.keys().isdisjoint(group.parts)

@@ -117,7 +117,8 @@ class _Sight:
         pipes: the same as diameters of the widest line at it.
         slim: its reach from the axis as share of the pipe's radius; None where no pipe tells.
         closes: whether it is a disc on a single end, and as wide.
-        apart: whether it is far likelier something else than a piece of the unit that it is flanged to beyond the end.
+        apart: type of the unit that it is flanged to beyond the only end, where it is far likelier something else than
+            a piece of that; else None.
         mounted: parts at which lines end.
     """
 
@@ -127,14 +128,14 @@ class _Sight:
     pipes: float
     slim: float | None
     closes: bool
-    apart: bool
+    apart: str | None
     mounted: Collection[int]
 
 
 def _look_at(piping: Piping, beliefs: Beliefs, body: Body, ends: Ends, mounted: Collection[int]) -> _Sight:
     rows = [mount.row for mount in body.mounts]
     length = _longest(piping, body.parts)
-    rather = _rather(piping, beliefs, body, ends, rows[0]) if len(rows) == 1 else 0.0
+    behind, rather = _behind(piping, beliefs, body, ends, rows[0]) if len(rows) == 1 else (None, 0.0)
     return _Sight(
         body=body,
         arrangement="aligned" if rather > 1.0 else arrangement_of(ends, rows),
@@ -142,21 +143,25 @@ def _look_at(piping: Piping, beliefs: Beliefs, body: Body, ends: Ends, mounted: 
         pipes=length / (2 * float(ends.radius[rows].max())),
         slim=_slimness(piping, body, ends, rows),
         closes=_is_lid(piping, body, ends, rows),
-        apart=rather >= _APART,
+        apart=behind if rather >= _APART else None,
         mounted=mounted,
     )
 
 
-def _rather(piping: Piping, beliefs: Beliefs, body: Body, ends: Ends, row: int) -> float:
-    """How much likelier than another piece of the unit that a body is flanged to, on the axis of the line that ends at
-    it, the body is something else: a valve at a pump, of which nobody is sure. 0 where it is flanged to none.
+def _behind(piping: Piping, beliefs: Beliefs, body: Body, ends: Ends, row: int) -> tuple[str | None, float]:
+    """The type of the unit that a body is flanged to on the axis of the line that ends at it, and how much likelier
+    than another piece of that unit the body is something else: a valve at a pump, of which nobody is sure.
     """
     met = set(_flanged_to(piping, body, ends, row))
     if len(met) != 1:
-        return 0.0
-    kinds = sorted(set(piping.given.vocabulary.unit_of_group.values()))
-    said = {kind: float(beliefs.of_groups(_groups_of(piping, kind))[list(body.parts)].mean()) for kind in kinds}
-    return max(said[kind] for kind in kinds if kind not in met) / max(*(said[kind] for kind in met), _LEAST)
+        return None, 0.0
+    (behind,) = met
+    said = {
+        kind: float(beliefs.of_groups(_groups_of(piping, kind))[list(body.parts)].mean())
+        for kind in sorted(set(piping.given.vocabulary.unit_of_group.values()))
+    }
+    likeliest = max((share for kind, share in said.items() if kind != behind), default=0.0)
+    return behind, likeliest / max(said[behind], _LEAST)
 
 
 def _flanged_to(piping: Piping, body: Body, ends: Ends, row: int) -> Iterator[str]:
@@ -242,7 +247,7 @@ def _owners(piping: Piping, sight: _Sight, unit_type: str) -> list[Group]:
     """The groups of a type that a body touches and may be a piece of; a gauge with a stem of its own is screwed into
     what more than one line ends at.
     """
-    if sight.apart:
+    if unit_type == sight.apart:
         return []
     touched = _touched(piping, sight.body, unit_type)
     if unit_type != "gauge" or sight.arrangement == "one":
