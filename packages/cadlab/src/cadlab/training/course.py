@@ -82,7 +82,7 @@ class Course:
         recipe: of each network.
     """
 
-    plants: int = 640
+    plants: int = 720
     drawn: int = 80
     others: int = 48
     members: int = 5

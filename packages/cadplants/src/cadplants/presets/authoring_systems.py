@@ -15,9 +15,11 @@ from cadplants.faults.omissions import OMISSIONS, omitted
 from cadplants.model.contacts import measured
 from cadplants.model.plant import Plant
 from cadplants.presets.assortment import make_assortment
-from cadplants.presets.taste import Taste
+from cadplants.presets.taste import FEW_KITS, Taste
 from cadplants.styles.authoring_styles import (
     Changes,
+    asset_pack_defects,
+    asset_pack_style,
     building_defects,
     building_style,
     game_defects,
@@ -119,7 +121,7 @@ def draw_system(rng: np.random.Generator, name: str | None = None) -> Authoring:
     pools = np.array(system.pools) * rng.uniform(0.5, 1.5, 3)
     shares = (float(pools[0]), float(pools[1]), float(pools[2]))
     most = int(rng.choice(system.sizes))
-    taste = Taste(shares, system.factors, (15, most), system.foreign, system.mixed, system.meshes)
+    taste = Taste(shares, {**FEW_KITS, **system.factors}, (15, most), system.foreign, system.mixed, system.meshes)
     return Authoring(name, style, defects, frozenset(missing), taste)
 
 
@@ -292,6 +294,27 @@ SYSTEMS: dict[str, System] = {
                 "gauge glasses": 0.4,
                 "glands": 0.3,
                 "structure": 0.15,
+            },
+        ),
+        System(
+            "asset-pack",
+            asset_pack_style,
+            asset_pack_defects,
+            (0.15, 0.8, 0.05),
+            {**dict.fromkeys(FEW_KITS, 6.0), "pump": 1.5, "gauge": 1.5, "railing": 1.5, **_WAYS},
+            (50, 80, 150, 200, 300),
+            0.1,
+            0.1,
+            (60, 200),
+            omissions={
+                "fasteners": 0.8,
+                "gaskets": 0.95,
+                "supports": 0.35,
+                "gauge glasses": 0.6,
+                "gauge needles": 0.4,
+                "glands": 0.7,
+                "motor parts": 0.3,
+                "base plates": 0.3,
             },
         ),
     )

@@ -12,10 +12,10 @@ from cadgraph.model.vocabulary import default_vocabulary
 from cadplants.builder.device import Device, families_of
 from cadplants.families import FAMILIES
 from cadplants.families.lookalikes.lookalike import LOOKALIKES
-from cadplants.families.primitive.primitive import PRIMITIVES
+from cadplants.families.primitive.primitive import KITS, PRIMITIVES
 from cadplants.model.family import Family
 
-__all__ = ["ALL_FAMILIES", "OF_PRIMITIVES", "Taste", "register"]
+__all__ = ["ALL_FAMILIES", "FEW_KITS", "OF_PRIMITIVES", "Taste", "register"]
 
 ALL_FAMILIES: dict[str, Family] = {**FAMILIES, **PRIMITIVES, **LOOKALIKES}
 """The usual families, those of primitives and those of look-alikes, by name."""
@@ -82,5 +82,8 @@ class Taste:
         return next((self.factors[key] for key in keys if key in self.factors), 1.0)
 
 
-OF_PRIMITIVES = Taste((0.15, 0.85, 0.0))
+FEW_KITS: Mapping[str, float] = {family.name: 0.2 for family in KITS}
+"""How often pieces of asset packs are drawn where a plant is not made of them."""
+
+OF_PRIMITIVES = Taste((0.15, 0.85, 0.0), FEW_KITS)
 """Of styles whose devices are of primitives."""

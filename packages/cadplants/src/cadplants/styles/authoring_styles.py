@@ -11,6 +11,8 @@ from cadplants.styles.modeling_style import ModelingStyle
 
 __all__ = [
     "Changes",
+    "asset_pack_defects",
+    "asset_pack_style",
     "building_defects",
     "building_style",
     "game_defects",
@@ -249,6 +251,37 @@ def game_defects(rng: np.random.Generator, _: ModelingStyle) -> Changes:
         "flipped": num(rng, 0.02, 0.2) if chance(rng, 0.2) else 0.0,
         "duplicates": num(rng, 0.0, 0.05) if chance(rng, 0.15) else 0.0,
         "mirrored": chance(rng, 0.3),
+    }
+
+
+# --- asset pack: a kit of pieces of one mesh each, put together ---
+
+
+def asset_pack_style(rng: np.random.Generator) -> Changes:
+    """What asset packs change about a modelling style."""
+    return {
+        **_round(rng, 8, 8, 10, 12, 12, 16, 20, 24, by_size=0.1),
+        **_bare(),
+        **_grains(rng, 0.7, 0.25, 0.05),
+        "hollow": chance(rng, 0.3),
+        "flange": _one_of(rng, ring=0.6, slip=0.3, neck=0.1),
+        "fasteners": _one_of(rng, none=0.75, flange=0.25),
+        "spool": "segments",
+        "merged": chance(rng, 0.25),
+        "capped": chance(rng, 0.5),
+        "soup": float(rng.choice([0.0, 0.0, 0.5, 1.0])),
+        "cracks": float(rng.choice([0.0, 0.0, 0.1])),
+        "gap": (-num(rng, 0.0005, 0.004), 0.0) if chance(rng, 0.3) else (0.0, 0.0),
+        "devices": _one_of(rng, primitives=0.85, built=0.15),
+    }
+
+
+def asset_pack_defects(rng: np.random.Generator, _: ModelingStyle) -> Changes:
+    """The defects of a plant that is put together from an asset pack in a style."""
+    return {
+        "joints": _span(rng, -0.008, 0.002) if chance(rng, 0.4) else None,
+        "flipped": num(rng, 0.02, 0.2) if chance(rng, 0.1) else 0.0,
+        "mirrored": chance(rng, 0.4),
     }
 
 

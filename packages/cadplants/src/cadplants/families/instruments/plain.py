@@ -60,7 +60,7 @@ def _stem() -> _Stem:
     return nested(_Stem, "stem", fixed=lambda p: {"facets": p.facets})
 
 
-class BoxOnStem(_PlainGauge, name="transmitter/plain box on stem", label=_HEAD, bundle=_HEAD, weight=3):
+class BoxOnStem(_PlainGauge, name="transmitter/plain box on stem", label=_HEAD, bundle=_HEAD, weight=1.5):
     """A pressure switch or a small transmitter: a stem, maybe a cell, a box with a lid, a gland or a plug aside."""
 
     stem: _Stem = _stem()
@@ -116,7 +116,7 @@ class BoxOnStem(_PlainGauge, name="transmitter/plain box on stem", label=_HEAD, 
         return along(axis, merge(nut), *place)
 
 
-class HeadOnStem(_PlainGauge, name="transmitter/plain head on stem", label=_HEAD, bundle=_HEAD, weight=3):
+class HeadOnStem(_PlainGauge, name="transmitter/plain head on stem", label=_HEAD, bundle=_HEAD, weight=1.5):
     """A transmitter in few sides: a stem, a neck, a drum, can, pot or ball with a lid, a gland aside."""
 
     stem: _Stem = _stem()
@@ -206,7 +206,7 @@ def _dial() -> _PlainDial:
     return nested(_PlainDial, "dial", fixed=lambda p: {"facets": p.facets})
 
 
-class PlainDial(_PlainGauge, name="gauge/plain dial", weight=4):
+class PlainDial(_PlainGauge, name="gauge/plain dial", weight=2):
     """A manometer in few sides: a dial upright on a stem, maybe on a U or a ring of bent pipe."""
 
     stem: _Stem = _stem()
@@ -244,7 +244,7 @@ class PlainDial(_PlainGauge, name="gauge/plain dial", weight=4):
         return bend([*corners, (4 * bow, 0, 2.2 * low)], 0.9 * bow, 4)
 
 
-class PlainThermometer(_PlainGauge, name="thermometer/plain dial", weight=3):
+class PlainThermometer(_PlainGauge, name="thermometer/plain dial", weight=1.5):
     """A bimetal thermometer in few sides: its dial across the stem, upright or tilted on it, maybe over a well."""
 
     stem: _Stem = _stem()
@@ -274,7 +274,7 @@ class PlainThermometer(_PlainGauge, name="thermometer/plain dial", weight=3):
         return t.model(kind="thermometer")
 
 
-class GlassBetweenBlocks(FlowMeter, name="flow meter/glass between blocks", sizes=sizes_between(15, 65), weight=3):
+class GlassBetweenBlocks(FlowMeter, name="flow meter/glass between blocks", sizes=sizes_between(15, 65), weight=1.5):
     """A rotameter: a straight or conical glass between two end blocks, a float, maybe tie rods, a scale, a shield."""
 
     facets: int = among(FACETS, FACETS_TEXT)
@@ -327,7 +327,7 @@ class GlassBetweenBlocks(FlowMeter, name="flow meter/glass between blocks", size
 
 
 class TubeBetweenEnds(
-    Melting, SightGlass, name="sight glass/tube between ends", sizes=sizes_between(15, 100), weight=3
+    Melting, SightGlass, name="sight glass/tube between ends", sizes=sizes_between(15, 100), weight=1.5
 ):
     """A sight glass in a line: a tube of glass between ferrules, discs or blocks, with bars or without."""
 

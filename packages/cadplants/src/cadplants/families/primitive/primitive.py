@@ -15,7 +15,11 @@ from cadplants.families.primitive.utilities import PRIMITIVE_UTILITIES
 from cadplants.families.primitive.valves import PRIMITIVE_VALVES
 from cadplants.model.family import Family
 
-__all__ = ["PRIMITIVES"]
+__all__ = ["KITS", "PRIMITIVES"]
+
+KITS: tuple[Family, ...] = (*KIT_FITTINGS, *KIT_TANKS, *KIT_VALVES)
+"""Pieces of asset packs, each of one mesh with its flanges, collars or ferrules: whole plants are made of them, and
+other systems know them as strangers only."""
 
 PRIMITIVES: dict[str, Family] = {
     family.name: family

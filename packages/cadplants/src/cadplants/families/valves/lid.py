@@ -56,7 +56,7 @@ class _Weighted(Params):
         t.add("lever", *weight)
 
 
-class BarrelLid(Valve, name="check valve/barrel with lid", sizes=BIG, weight=3):
+class BarrelLid(Valve, name="check valve/barrel with lid", sizes=BIG, weight=1.5):
     """A swing check valve: a short flanged barrel, a chest with a domed or bolted lid, maybe a weighted lever aside."""
 
     length: float = between(1.0, 1.7, "face to face / outside of the flange")
@@ -122,7 +122,7 @@ class BarrelLid(Valve, name="check valve/barrel with lid", sizes=BIG, weight=3):
         self.lever.build(t.at(0, near if self.side > 0 else -near - 0.08 * r - 0.005), n)
 
 
-class TwoHexagons(Valve, name="check valve/two hexagons", sizes=SMALL, weight=2.5):
+class TwoHexagons(Valve, name="check valve/two hexagons", sizes=SMALL, weight=1.25):
     """A spring check valve of brass: two screwed parts, each with its hexagon, a round or waisted middle between."""
 
     long: float = between(2.4, 5.0, "(length - 24 mm) / radius of the pipe")

@@ -194,7 +194,7 @@ def _block() -> _Block:
     return nested(_Block, "block", fixed=lambda p: {"dn": p.dn, "facets": p.facets})
 
 
-class AirRegulator(Melting, Valve, name="pressure reducing valve/air regulator", sizes=_SIZES, weight=3):
+class AirRegulator(Melting, Valve, name="pressure reducing valve/air regulator", sizes=_SIZES, weight=1.5):
     """A regulator of compressed air: a block, a hood with a knob, a plug below, a small gauge in front."""
 
     melted: bool = chance(0.25, "all of it, its gauge too, is one mesh")
@@ -234,7 +234,7 @@ class _Unit(Device, place="inline", group="Equipment", label=_FILTER, bundle=_FI
     bowl: _Bowl = nested(_Bowl, "bowl")
 
 
-class AirFilter(_Unit, name="filter/air bowl", weight=3):
+class AirFilter(_Unit, name="filter/air bowl", weight=1.5):
     """A filter or lubricator of compressed air: a block with two ports, a bowl below, a lid or a sight dome on it."""
 
     melted: bool = chance(0.4, "all of it is one mesh")
@@ -273,7 +273,7 @@ def _crown(form: str, block: _Block, n: int) -> list[Solid]:
     return []
 
 
-class AirUnit(_Unit, name="filter/air service unit", weight=3):
+class AirUnit(_Unit, name="filter/air service unit", weight=1.5):
     """A row of a filter, a regulator with a gauge and maybe a lubricator, with clamps or gaps of nipples between."""
 
     oiled: bool = chance(0.6, "a lubricator at its end")

@@ -94,7 +94,7 @@ def _tip(form: str, r: float, n: int) -> list[Solid]:
     return []
 
 
-class HoseBib(_Small, name="bib tap/hose bib", place="end", sizes=sizes_between(15, 32), weight=3):
+class HoseBib(_Small, name="bib tap/hose bib", place="end", sizes=sizes_between(15, 32), weight=1.5):
     """A hose bib on a pipe's end: a wrench end, a bonnet upright or aslant, a bent spout with a thread or tail."""
 
     reach: float = between(2.2, 5.0, "(from the pipe to the spout's bend - 10 mm) / radius of the pipe")
@@ -131,7 +131,7 @@ class HoseBib(_Small, name="bib tap/hose bib", place="end", sizes=sizes_between(
         return t.model(kind="tap")
 
 
-class DrainTip(_Small, name="drain valve/cap or tail", weight=2):
+class DrainTip(_Small, name="drain valve/cap or tail", weight=1):
     """A drain valve on an outlet: a wrench end, a lever, wheel or square aside, its mouth capped or with a tail."""
 
     long: float = between(3.0, 6.0, "(length - 12 mm) / radius of the pipe")
@@ -159,7 +159,7 @@ class DrainTip(_Small, name="drain valve/cap or tail", weight=2):
         return t.model(kind="drain valve")
 
 
-class PetCock(_Small, name="sampling valve/pet cock", weight=2):
+class PetCock(_Small, name="sampling valve/pet cock", weight=1):
     """A pet or sampling cock: a taper body, a spout bent down or aside, a tee, wing or lever on top."""
 
     core: float = between(0.006, 0.013, "radius of its shank", "m")
@@ -191,7 +191,7 @@ class PetCock(_Small, name="sampling valve/pet cock", weight=2):
         return t.model(kind="sampling valve")
 
 
-class BottleVent(_Small, name="air vent/bottle", weight=2.5):
+class BottleVent(_Small, name="air vent/bottle", weight=1.25):
     """An automatic air vent: a bottle on a wrench end, a cap, maybe a vent at its side or a square below."""
 
     wide: float = between(0.014, 0.04, "radius of the bottle", "m")
@@ -241,7 +241,7 @@ class BottleVent(_Small, name="air vent/bottle", weight=2.5):
         return t.model(kind="air vent")
 
 
-class SafetyLever(_Small, name="relief valve/screwed with lever", sizes=(15, 20, 25, 32, 40, 50), weight=2.5):
+class SafetyLever(_Small, name="relief valve/screwed with lever", sizes=(15, 20, 25, 32, 40, 50), weight=1.25):
     """A screwed safety valve, angle pattern: a tall bonnet over the body, a lifting lever, ring or knob on its cap."""
 
     body: float = between(1.2, 1.7, "radius of the body / of the pipe")
