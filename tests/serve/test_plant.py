@@ -310,7 +310,7 @@ def test_what_does_not_go_together_is_said_before_a_page_is_opened(folder, tmp_p
     with pytest.raises(ValueError, match="opened as they are"):
         order_of(folder, tmp_path, None, None)
     assert order_of(folder / "graph.json", None, None, None) == Order(folder)
-    with pytest.raises(FormatError, match=r"holds no graph\.json"):
+    with pytest.raises(FormatError, match=r"graph\.json: no such file; 'cadgraph build' makes it"):
         Order(tmp_path).prepare()
     with pytest.raises(LoadError, match="no such file"):
         Order(tmp_path / "out", tmp_path / "nothing.usda").prepare()

@@ -143,7 +143,11 @@ def read_catalog(path: str | Path) -> Catalog:
         LabelError: the file is missing, damaged, too large, or of another version.
     """
     content = read_bytes_within(
-        path, CATALOG, LabelError, "split the catalogue, or make one with 'cadgraph catalog add'"
+        path,
+        CATALOG,
+        LabelError,
+        "split the catalogue",
+        "check the path, or make a catalogue with 'cadgraph catalog add'",
     )
     arrays = _arrays(content, path)
     try:
