@@ -20,6 +20,8 @@ graph's ``diagnostics``.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 __all__ = [
     "AskError",
     "CadGraphError",
@@ -128,11 +130,13 @@ class Unconnected(CadGraphError, ValueError):
     Args:
         name: tag of the unit.
         asked: what can't be said, as a person would say it (``"what isolates it"``).
+        touched: tags of units with lines that it touches: a gauge without a pipe may sit on one of them.
     """
 
-    def __init__(self, name: str, asked: str) -> None:
-        self.name = name
+    def __init__(self, name: str, asked: str, touched: Sequence[str] = ()) -> None:
+        self.name, self.touched = name, tuple(touched)
+        beside = f", which touches {', '.join(touched)}" if touched else ""
         super().__init__(
-            f"no line was found at {name}; can't say {asked}: 'cadgraph explain FOLDER {name}' says what is near it, "
-            "'cadgraph relabel' corrects a label"
+            f"no line was found at {name}{beside}; can't say {asked}: 'cadgraph explain FOLDER {name}' says what is "
+            "near it, 'cadgraph relabel' corrects a label"
         )

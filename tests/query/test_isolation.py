@@ -1,11 +1,13 @@
 import pytest
 
 import graphs
+import shapes
 from cadgraph.errors import Unconnected
 from cadgraph.model.records import Adjacent, Port
 from cadgraph.query import Network, find_isolation
 from cadgraph.query.text import gap_lines, isolation_lines
 from networks import chain, joint, junction, network, pumping, terminal, unit
+from piping import GAUGE, TANK, Plant, gauge_mesh
 from playing import LEVER
 
 
@@ -298,6 +300,16 @@ def test_a_dead_end_needs_nothing():
 def test_a_unit_without_a_line_gets_no_answer():
     with pytest.raises(Unconnected, match=r"no line was found at P-001; can't say what isolates it: .*explain"):
         find_isolation(network([unit("P-001")], []), "P-001")
+
+
+def test_a_gauge_without_a_line_is_told_with_what_it_sits_on():
+    plant = Plant()
+    plant.add(shapes.box((0.5, 0.5, 1.0), (0, 0, 0)), TANK, "tank")
+    plant.pipe((0.25, 0, 0), (1, 0, 0))
+    plant.add(gauge_mesh((0, 0, 0.5)), GAUGE, "gauge")
+    with pytest.raises(Unconnected, match="no line was found at G-001, which touches T-001; can't say") as refused:
+        find_isolation(plant.graph(), "G-001")
+    assert refused.value.touched == ("T-001",)
 
 
 def test_a_pump_with_one_line_gets_an_answer_that_says_it_may_be_incomplete():

@@ -51,7 +51,7 @@ def neighbors(
     start = plant.place(id)
     network = plant.network
     if not network.arcs(start):
-        raise Unconnected(network.name(start), "what is next to it along the pipes")
+        raise network.unconnected(start, "what is next to it along the pipes")
     distances, ways = network.shortest(start, lambda arc: arc.start == start or _is_passed(plant, arc.start))
     found = [place for place in distances if place != start and not _is_passed(plant, place)]
     found.sort(key=lambda place: (distances[place], network.name(place)))

@@ -6,7 +6,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from cadgraph._io.text import tag_key
-from cadgraph.errors import Unconnected
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Terminal
 from cadgraph.query.doubt import Doubt, few_ports, open_sides
@@ -174,7 +173,7 @@ def find_isolation(
     network = graph if isinstance(graph, Network) else Network(graph)
     start = network.find(target)
     if not network.arcs(start):
-        raise Unconnected(network.name(start), "what isolates it")
+        raise network.unconnected(start, "what isolates it")
     section = close_off(network, start, Rules(network, check_valves, assume_shutoff), fewest)
     line_of = {arc.index: line.tag for line in find_lines(network) for arc in line.arcs}
     apart = {*section.needed, start}

@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from typing import Literal, TypeVar
 
 from cadgraph._io.text import tag_key
-from cadgraph.errors import Unconnected
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Unit
 from cadgraph.query.network import Arc, Flow, Network
@@ -106,7 +105,7 @@ def find_lines(graph: SceneGraph | Network, at: str | None = None) -> list[Line]
         return _all_lines(network)
     place = network.find(at)
     if not network.arcs(place):
-        raise Unconnected(network.name(place), "which lines it is in")
+        raise network.unconnected(place, "which lines it is in")
     lines = _all_lines(network)
     own = [line for line in lines if place in (line.start, line.end, *line.through)]
     foot = _foot(network, place)

@@ -5,6 +5,8 @@ from __future__ import annotations
 import reprlib
 from functools import cached_property
 
+from cadgraph._io.text import natural_key
+from cadgraph.errors import Unconnected
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.pipework import Arc, Flow, Pipework, Place
 from cadgraph.model.records import Connected, Joint, Junction, System, Terminal, Unit
@@ -35,6 +37,19 @@ class Network(Pipework):
             UnknownNode: there is none, which is a ``ValueError``; the message names the nearest tags.
         """
         return self.graph.find(which, Unit, Junction, Terminal).id
+
+    def unconnected(self, place: str, asked: str) -> Unconnected:
+        """The error that says that no line was found at a unit, and which units with lines it touches.
+
+        Args:
+            place: its id.
+            asked: what can't be said.
+        """
+        parts = self.places[place].parts
+        near = [part.id for own in parts for part in self.graph.neighbors(self.graph.part(own))]
+        owners = {owner for part in near if (owner := self.owner_of_part(part)) is not None and owner != place}
+        units = [owner for owner in owners if isinstance(self.places[owner], Unit) and self.arcs(owner)]
+        return Unconnected(self.name(place), asked, sorted(map(self.name, units), key=natural_key))
 
     @cached_property
     def doubted(self) -> frozenset[str]:

@@ -6,7 +6,6 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from cadgraph._io.text import tag_key
-from cadgraph.errors import Unconnected
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.pipework import Direction, Follow, check_direction
 from cadgraph.model.records import Terminal
@@ -133,7 +132,7 @@ def trace(
     check_direction(direction)
     first = network.find(start)
     if not network.arcs(first):
-        raise Unconnected(network.name(first), f"what lies {direction} of it")
+        raise network.unconnected(first, f"what lies {direction} of it")
     follows = network.follower(direction, through_unknown)
     distances, arcs_to = network.shortest(first, follows)
     line_of = _line_of(network)
@@ -209,7 +208,7 @@ def find_way(graph: SceneGraph | Network, start: str, end: str, direction: Direc
     first, last = network.find(start), network.find(end)
     for place in (first, last):
         if not network.arcs(place) and first != last:
-            raise Unconnected(network.name(place), f"how {network.name(first)} and {network.name(last)} are connected")
+            raise network.unconnected(place, f"how {network.name(first)} and {network.name(last)} are connected")
     distances, arcs_to = network.shortest(first, network.follower(direction))
     if last not in arcs_to:
         others, _ = network.shortest(last, network.follower(None))

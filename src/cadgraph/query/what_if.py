@@ -8,7 +8,6 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from cadgraph._io.text import tag_key
-from cadgraph.errors import Unconnected
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.pipework import Follow
 from cadgraph.model.records import Terminal, Unit
@@ -135,7 +134,7 @@ def _closed(network: Network, close: Sequence[str]) -> tuple[str, ...]:
         if not network.is_valve(place):
             raise ValueError(f"{network.name(place)} is no valve but a {network.what(place)}; name valves to close")
         if not network.arcs(place):
-            raise Unconnected(network.name(place), "what closing it cuts off")
+            raise network.unconnected(place, "what closing it cuts off")
     return tuple(sorted(places, key=lambda place: tag_key(network.name(place))))
 
 
@@ -147,7 +146,7 @@ def _given(network: Network, sources: Sequence[str], closed: Collection[str]) ->
         if place in closed:
             raise ValueError(f"{network.name(place)} is closed and can't be a source as well")
         if not network.arcs(place):
-            raise Unconnected(network.name(place), "what it feeds")
+            raise network.unconnected(place, "what it feeds")
         node = network.places[place]
         blind = isinstance(node, Terminal) and node.kind == "blind"
         if what := "a blind end" if blind else "a gauge" if network.is_gauge(place) else "":
