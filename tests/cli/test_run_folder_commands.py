@@ -281,6 +281,6 @@ def test_a_folder_of_several_plants_names_them(capsys, folder, tmp_path, words):
 def test_a_file_that_is_not_there_is_said_to_be_missing(capsys, folder, tmp_path, words):
     missing = tmp_path / "missing"
     places = {"FOLDER": folder, "MISSING": missing}
-    assert refused(capsys, *(places.get(word, word) for word in words)) == (
-        f"error: {missing}: no such file; check the path"
-    )
+    said = refused(capsys, *(places.get(word, word) for word in words))
+    made = ", or make a catalogue with 'cadgraph catalog add'" if words[0] == "catalog" else ""
+    assert said == f"error: {missing}: no such file; check the path{made}"
