@@ -228,16 +228,19 @@ def _join_fittings(work: _Work, piping: Piping) -> bool:
 def _machines_at(work: _Work, k: int, piping: Piping) -> list[int]:
     """The machines at a group that is but what machines of several kinds have; none where it is more than that."""
     names = piping.roles.names
-    own, near = {names[part] for part in work.parts[k]}, _near(work, k, piping)
+    own = {names[part] for part in work.parts[k]}
     if work.types[k] == "tank" and own <= _ON_VESSELS:
-        return _of_types(work, near, ("equipment", "pump"))
-    driven = _of_types(work, near, ("equipment",)) if work.types[k] == "pump" and own <= _DRIVES else []
+        return _of_types(work, _near(work, k, piping), ("equipment", "pump"))
+    if work.types[k] != "pump" or not own <= _DRIVES:
+        return []
+    driven = _of_types(work, _near(work, k, piping), ("equipment",))
     return [other for other in driven if not _DRIVEN.isdisjoint(names[part] for part in work.parts[other])]
 
 
 def _near(work: _Work, k: int, piping: Piping) -> list[int]:
-    """The groups that a group touches, ascending."""
-    return _touched(work, [other for part in work.parts[k] for other in piping.given.neighbors.get(part, ())])
+    """The other groups that a group touches, ascending."""
+    near = [other for part in work.parts[k] for other in piping.given.neighbors.get(part, ())]
+    return [other for other in _touched(work, near) if other != k]
 
 
 def _of_types(work: _Work, groups: Sequence[int], types: Collection[str]) -> list[int]:
@@ -247,7 +250,7 @@ def _of_types(work: _Work, groups: Sequence[int], types: Collection[str]) -> lis
 
 def _takers_of_odd(work: _Work, k: int, piece: int, piping: Piping) -> list[int]:
     """The groups that a single part is next to, if they are of one type and one of all these at most is on a line."""
-    touched = [other for other in _touched(work, piping.given.neighbors.get(piece, ())) if other != k]
+    touched = _near(work, k, piping)
     standing = [other for other in touched if _stands(work.parts[other], piping.mounted)]
     alike = len({work.types[other] for other in touched}) == 1
     return touched if alike and len(standing) + (piece in piping.mounted) <= 1 else []
