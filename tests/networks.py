@@ -5,8 +5,10 @@ from __future__ import annotations
 import math
 from itertools import pairwise
 
+import graphs
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import (
+    Adjacent,
     Connected,
     Contains,
     GraphDocument,
@@ -73,6 +75,19 @@ def chain(text, size=80, length=1.0, direction="forward", **more):
             )
         )
     return edges
+
+
+def mounted(count=1, size=0.1):
+    """A level gauge ``G-001`` without a line, pieces of a size in a row beside it, and the tank that they reach."""
+    gauge = unit("G-001", "level gauge").model_copy(update={"parts": ("part-0",)})
+    tank = unit("T-001", at=(0, 0, 2.0), ports=("N1",)).model_copy(update={"parts": (f"part-{count + 1}",)})
+    parts = [
+        graphs.part(0),
+        *(graphs.part(k, size=size) for k in range(1, count + 1)),
+        graphs.part(count + 1, size=9.0),
+    ]
+    touch = [Adjacent(source=a.id, target=b.id, distance=0.0, point=(0.0, 0.0, 0.0)) for a, b in pairwise(parts)]
+    return [gauge, tank, *parts], touch
 
 
 def joint(first, second, gap=0.0, score=0.9, made=True, kind="face", reasons=("axes aligned",), at=(0.0, 0.0, 0.0)):

@@ -130,13 +130,14 @@ class Unconnected(CadGraphError, ValueError):
     Args:
         name: tag of the unit.
         asked: what can't be said, as a person would say it (``"what isolates it"``).
-        touched: tags of units with lines that it touches: a gauge without a pipe may sit on one of them.
+        mounted_at: tags of the units that it sits at, if any: a gauge without a pipe shows what is in one of them.
     """
 
-    def __init__(self, name: str, asked: str, touched: Sequence[str] = ()) -> None:
-        self.name, self.touched = name, tuple(touched)
-        beside = f", which touches {', '.join(touched)}" if touched else ""
+    def __init__(self, name: str, asked: str, mounted_at: Sequence[str] = ()) -> None:
+        self.name, self.mounted_at = name, tuple(mounted_at)
+        beside = f", which is mounted at {' or '.join(mounted_at)}" if mounted_at else ""
+        instead = f"ask about {mounted_at[0]}; " if len(mounted_at) == 1 else ""
         super().__init__(
-            f"no line was found at {name}{beside}; can't say {asked}: 'cadgraph explain FOLDER {name}' says what is "
-            "near it, 'cadgraph relabel' corrects a label"
+            f"no line was found at {name}{beside}; can't say {asked}: {instead}'cadgraph explain FOLDER {name}' says "
+            "what is near it, 'cadgraph relabel' corrects a label"
         )

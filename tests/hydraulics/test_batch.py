@@ -6,7 +6,7 @@ import pytest
 from cadgraph.hydraulics.batch import ProcessBatch
 from cadgraph.hydraulics.process import Process
 from cadgraph.query.network import Network
-from networks import chain, junction, network, pumping, terminal, unit
+from networks import chain, junction, mounted, network, pumping, terminal, unit
 
 
 def tanked():
@@ -17,6 +17,12 @@ def tanked():
         unit("G-001", "pressure gauge"), unit("V-002", "ball valve"), terminal(2),
     ]  # fmt: skip
     return network(nodes, chain("X1 V-001 T-001.N1") + chain("T-001.N2 G-001 V-002 X2"))
+
+
+def shown_on_the_shell():
+    """A tank that a valve empties, with a level gauge that has no line."""
+    nodes, touch = mounted()
+    return network([*nodes, unit("V-001", "ball valve"), terminal(1)], [*touch, *chain("T-001.N1 V-001 X1")])
 
 
 def looped():
@@ -42,7 +48,9 @@ def told(lot, n, columns):
     return np.where(lot.random((n, columns)) < 0.5, np.nan, values)
 
 
-@pytest.mark.parametrize("graph", [pumping(), tanked(), looped()], ids=["pumping", "tanked", "looped"])
+@pytest.mark.parametrize(
+    "graph", [pumping(), tanked(), looped(), shown_on_the_shell()], ids=["pumping", "tanked", "looped", "shell"]
+)
 def test_each_plant_goes_the_way_that_it_would_go_alone(graph):
     shared = Network(graph)
     plants = ProcessBatch(shared, count=12)

@@ -10,8 +10,9 @@ import pytest
 import cadgraph
 from cadgraph.hydraulics.process import Process
 from cadgraph.hydraulics.scenario_file import write_scenario
+from cadgraph.hydraulics.text import standing, state_values
 from cadgraph.model.records import Mechanism, Port
-from networks import chain, junction, network, pumping, terminal, unit
+from networks import chain, junction, mounted, network, pumping, terminal, unit
 from waterworks import head_gained, imbalance, line, random_commands
 
 
@@ -313,6 +314,28 @@ def test_a_tank_overflows_at_its_height():
         state = plant.step(dt=1.0)
     assert state.level["T-001"] == 2.0
     assert any("T-001 overflows" in remark for remark in state.remarks)
+
+
+def level_gauge(count=1, **more):
+    """A tank that drains, with a level gauge on its shell that has no line."""
+    nodes, touch = mounted(count, **more)
+    nodes += [unit("V-001", "ball valve", ports=("N1", "N2")), terminal(1)]
+    return network(nodes, [*touch, *chain("T-001.N1 V-001 X1", size=50)])
+
+
+def test_a_level_gauge_on_the_shell_of_a_tank_shows_its_level():
+    plant = edited(Process(level_gauge()), "tanks", "T-001", bottom=2.0, height=2.0, level=1.0, area=0.05)
+    assert plant.state.reading["G-001"] == pytest.approx(1.0)
+    state = plant.step(dt=5.0)
+    assert state.level["T-001"] < 0.95
+    assert state.reading["G-001"] == pytest.approx(state.level["T-001"], abs=0.05)
+    assert plant.scenario.gauges["G-001"].why["span"] == "assumed: the height of its tank"
+    assert "G-001" in [line.tag for line in standing(plant)]
+    assert state_values(plant)["gauges"]["G-001"]["pressure_bar"] is None
+
+
+def test_a_level_gauge_that_reaches_no_tank_is_not_simulated():
+    assert "G-001" not in Process(level_gauge(size=9.0)).scenario.gauges
 
 
 def test_what_enters_above_the_level_falls_in_and_does_not_run_back():

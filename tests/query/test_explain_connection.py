@@ -5,7 +5,7 @@ import pytest
 import graphs
 from cadgraph.model.records import Adjacent
 from cadgraph.query import explain_connection
-from networks import chain, joint, junction, network, terminal, unit
+from networks import chain, joint, junction, mounted, network, terminal, unit
 
 UNITS = ("T-001", "V-001", "V-002", "P-001", "G-001")
 
@@ -153,6 +153,14 @@ def test_units_without_parts_have_no_nearest_ones():
 def test_a_unit_and_itself_are_refused():
     with pytest.raises(ValueError, match="are both V-001: give two different ones"):
         explain_connection(plant(), "V-001", "v")
+
+
+@pytest.mark.parametrize("pair", [("G-001", "T-001"), ("T-001", "G-001")])
+def test_a_gauge_on_the_shell_of_a_tank_is_told_as_mounted_there(pair):
+    nodes, touch = mounted()
+    told = explain_connection(network([*nodes, terminal(1)], [*touch, *chain("T-001.N1 X1")]), *pair)
+    assert told.mounted == ("G-001", "T-001")
+    assert told.lines()[1:] == [("mounted", "G-001 is mounted at T-001"), told.lines()[-1]]
 
 
 def test_order_of_the_joints_in_the_file_changes_nothing():

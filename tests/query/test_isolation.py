@@ -6,7 +6,7 @@ from cadgraph.errors import Unconnected
 from cadgraph.model.records import Adjacent, Port
 from cadgraph.query import Network, find_isolation
 from cadgraph.query.text import gap_lines, isolation_lines
-from networks import chain, joint, junction, network, pumping, terminal, unit
+from networks import chain, joint, junction, mounted, network, pumping, terminal, unit
 from piping import GAUGE, TANK, Plant, gauge_mesh
 from playing import LEVER
 
@@ -307,9 +307,40 @@ def test_a_gauge_without_a_line_is_told_with_what_it_sits_on():
     plant.add(shapes.box((0.5, 0.5, 1.0), (0, 0, 0)), TANK, "tank")
     plant.pipe((0.25, 0, 0), (1, 0, 0))
     plant.add(gauge_mesh((0, 0, 0.5)), GAUGE, "gauge")
-    with pytest.raises(Unconnected, match="no line was found at G-001, which touches T-001; can't say") as refused:
+    with pytest.raises(Unconnected, match=r"at G-001, which is mounted at T-001; .*: ask about T-001; ") as refused:
         find_isolation(plant.graph(), "G-001")
-    assert refused.value.touched == ("T-001",)
+    assert refused.value.mounted_at == ("T-001",)
+
+
+@pytest.mark.parametrize(("count", "size", "at"), [
+    (0, 0.1, ("unit-T-001",)),
+    (3, 0.1, ("unit-T-001",)),
+    (4, 0.1, ()),
+    # What is larger than the gauge may bear the whole plant.
+    (1, 3.0, ()),
+])  # fmt: skip
+def test_a_gauge_is_mounted_at_what_it_reaches_over_small_pieces_of_nothing_else(count, size, at):
+    nodes, touch = mounted(count, size)
+    plant = Network(network([*nodes, terminal(1)], [*touch, *chain("T-001.N1 X1")]))
+    assert plant.mounted_at("unit-G-001") == at
+    assert plant.mounted_at("unit-T-001") == ()
+    assert plant.mounted_at("terminal-001") == ()
+
+
+def test_a_valve_is_mounted_only_at_what_it_touches():
+    nodes, touch = mounted(1)
+    valve = nodes[0].model_copy(update={"unit_type": "valve", "kind": None})
+    assert Network(network([valve, *nodes[1:]], touch)).mounted_at("unit-G-001") == ()
+
+
+def test_a_gauge_between_two_units_may_be_mounted_at_either():
+    nodes, touch = mounted(0)
+    other = unit("T-002").model_copy(update={"parts": ("part-9",)})
+    more = Adjacent(source="part-0", target="part-9", distance=0.0, point=(0.0, 0.0, 0.0))
+    graph = network([*nodes, other, graphs.part(9), terminal(1)], [*touch, more, *chain("T-001.N1 X1")])
+    with pytest.raises(Unconnected, match="mounted at T-001 or T-002; can't say what isolates it: 'cadgraph explain"):
+        find_isolation(graph, "G-001")
+    assert "no line was found at G-001 (at T-001 or T-002), T-002 (at G-001)" in gap_lines(Network(graph))[0]
 
 
 def test_a_pump_with_one_line_gets_an_answer_that_says_it_may_be_incomplete():

@@ -52,7 +52,7 @@ def test_ends_are_told_by_kind():
 
 def test_units_without_a_line_are_named_where_others_have_one():
     nodes = [unit("P-001"), unit("V-001"), unit("P-002")]
-    assert summarize(network(nodes, chain("P-001 V-001"))).without_line == ("P-002",)
+    assert summarize(network(nodes, chain("P-001 V-001"))).without_line == {"P-002": ()}
     told = "\n".join(summary_lines(summarize(network(nodes, chain("P-001 V-001")))))
     assert "no line at" in told
     assert "P-002" in told

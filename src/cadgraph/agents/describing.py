@@ -88,15 +88,23 @@ def _describe_node(plant: Plant, node: Unit | Junction | Terminal, page: int) ->
     lines = [line.tag for line in plant.lines if node.id in (line.start, line.end, *line.through)]
     rows += [*here, ("system", told.system or "none"), ("lines", ", ".join(lines))]
     rows += [(f"port {port.port}" if port.port else "port", _port(port)) for port in told.ports]
-    if told.missing:
-        rows.append(("MISSING", f"{told.missing} more lines would make a whole {told.what}: they were not found"))
-    rows += [("not joined", say_joint(joint)) for joint in told.open_joints]
+    rows += _lacking(told)
     rows += _pieces("parts", [f"{part.part} {part.label or 'unlabelled'}" for part in told.parts])
     if isinstance(node, Unit):
         rows.append(("reach", _reach(plant, node)))
         rows.append(("by hand", say_mechanism(node) or say_not_movable(plant.graph, node)))
         rows += [("labels", _evidence(plant, node)), *fact_rows(node.facts)]
     return _answer(rows, values | _node_values(node, told, lines), page)
+
+
+def _lacking(told: UnitExplanation) -> Iterator[tuple[str, str]]:
+    """What a unit lacks, what it is mounted at without a line, and what might be joined to it."""
+    if told.mounted_at:
+        yield "mounted at", f"{' or '.join(told.mounted_at)}; no line was found here"
+    if told.missing:
+        yield "MISSING", f"{told.missing} more lines would make a whole {told.what}: they were not found"
+    for joint in told.open_joints:
+        yield "not joined", say_joint(joint)
 
 
 def _node_values(node: Unit | Junction | Terminal, told: UnitExplanation, lines: Sequence[str]) -> dict[str, Any]:
@@ -115,6 +123,7 @@ def _node_values(node: Unit | Junction | Terminal, told: UnitExplanation, lines:
         "access": node.access.model_dump() if isinstance(node, Unit) and node.access is not None else None,
         "affordances": list(node.affordances) if isinstance(node, Unit) else [],
         "mechanism": node.mechanism.model_dump() if isinstance(node, Unit) and node.mechanism is not None else None,
+        "mounted_at": list(told.mounted_at),
         "missing_lines": told.missing,
         "open_joints": [say_joint(joint) for joint in told.open_joints],
         "parts": [part.part for part in told.parts],

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Annotated, Any, Literal
 
 from cadgraph._io.text import tag_key
@@ -14,7 +14,7 @@ from cadgraph.agents.plant import Plant
 from cadgraph.model.names import loose_tag
 from cadgraph.model.records import Junction, Part, Place, Point, System, Terminal, Unit
 from cadgraph.model.regions import region_of
-from cadgraph.query.doubt import bare_nozzles, few_ports, likely_joints
+from cadgraph.query.doubt import bare_nozzles, few_ports, likely_joints, unconnected
 
 __all__ = ["NO_PLACES", "REGIONS", "counted", "find", "kind_of", "overview", "said_place", "some", "where"]
 
@@ -83,7 +83,7 @@ def _trust_of(plant: Plant) -> dict[str, Any]:
         "parts_unlabelled": summary.n_parts - summary.n_labelled,
         "labels_only_likely": sum(part.label is not None and part.label.likely for part in graph.parts()),
         "units_short_of_lines": [network.name(u.id) for u in graph.units() if _lacks_lines(plant, u.id)],
-        "units_without_line": list(map(network.name, _without_line(plant))),
+        "units_without_line": list(unconnected(network)),
         "valves_of_unknown_kind": [network.name(u.id) for u in graph.units() if u.unit_type == "valve" and not u.kind],
         "lines": len(plant.lines),
         "lines_of_unknown_flow": sum(line.flow == "unknown" for line in plant.lines),
@@ -100,10 +100,6 @@ def _level_rows(plant: Plant) -> list[str]:
         return [f"levels {NO_PLACES}"]
     told = some(place.name for place in levels(plant))
     return [f"levels {len(levels(plant))}: {told}; units reached from {_counts(reach) or 'unknown'}"]
-
-
-def _without_line(plant: Plant) -> Iterator[str]:
-    return (unit.id for unit in plant.graph.units() if not plant.network.arcs(unit.id))
 
 
 def _lacks_lines(plant: Plant, unit: str) -> bool:

@@ -242,6 +242,7 @@ def note_line(note: Any) -> str:
 
 def summary_lines(summary: Any) -> list[str]:
     """A summary in about a dozen lines of console markup."""
+    from cadgraph.query.doubt import mounted_words
     from cadgraph.query.summary import connection_words, end_words
 
     groups = ", ".join(f"{escape(group)} {n}" for group, n in summary.groups.items()) or "none"
@@ -261,7 +262,7 @@ def summary_lines(summary: Any) -> list[str]:
         ),
         ("touching", f"{_count(summary.n_adjacent, 'pair')} of parts"),
         ("units", units or "none"),
-        *((("no line at", _some(summary.without_line)),) if summary.without_line else ()),
+        *((("no line at", _some(mounted_words(summary.without_line))),) if summary.without_line else ()),
         ("connections", connection_words(summary)),
         ("ends", end_words(summary)),
         ("systems", f"{_count(summary.n_systems, 'connected network')} of pipes"),

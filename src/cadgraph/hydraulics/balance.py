@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from cadgraph.hydraulics.network import Circuit, LinkKind, Nozzle
-from cadgraph.hydraulics.scenario import guess_scenario, with_pressures
+from cadgraph.hydraulics.scenario import guess_scenario, tanks_of_gauges, with_pressures
 from cadgraph.hydraulics.settings import Characteristic, Scenario
 from cadgraph.hydraulics.solve import Condition, Solution, Solver
 from cadgraph.model.graph import SceneGraph
@@ -214,15 +214,15 @@ class Balance:
             tag: of the gauge.
         """
         gauge, node = self.scenario.gauges[tag], self.circuit.gauges.get(tag)
+        if gauge.measures == "level":
+            tank = self.places.tank_of.get(tag)
+            return None if tank is None else self.level[tank]
         if node is None:
             return None
         if gauge.measures == "pressure":
             return self.pressure_at(node)
         if gauge.measures == "flow":
             return self.places.flow_at(tag, self.solution.flow) * 3600
-        if gauge.measures == "level":
-            tank = self.places.tank_of.get(tag)
-            return None if tank is None else self.level[tank]
         return None
 
 
@@ -261,7 +261,7 @@ class _Places:
         }
         """Tags of tanks with those of their ports that something is known to flow out of."""
         self._at_gauge = {tag: joined.get(node, []) for tag, node in circuit.gauges.items()}
-        self.tank_of = _tanks_of_gauges(network)
+        self.tank_of = tanks_of_gauges(network)
 
     def flows(self, flow: Floats) -> dict[int, float]:
         """Flows by number of the connection."""
@@ -279,23 +279,3 @@ class _Places:
         """What flows past a gauge [m3/s]."""
         links = self._at_gauge[tag]
         return float(np.abs(flow[links]).max()) if len(links) > 1 else 0.0
-
-
-def _tanks_of_gauges(network: Network) -> dict[str, str]:
-    """The tank that each gauge hangs at, by tags: with nothing but valves and gauges between."""
-    found: dict[str, str] = {}
-    for place, node in network.places.items():
-        if not isinstance(node, Unit) or node.unit_type != "gauge":
-            continue
-        seen, waiting = {place}, [place]
-        while waiting:
-            for arc in network.arcs(waiting.pop()):
-                other = network.places[arc.end]
-                if arc.end in seen or not isinstance(other, Unit):
-                    continue
-                if other.unit_type == "tank":
-                    found.setdefault(node.tag, other.tag)
-                elif other.unit_type in ("valve", "gauge"):
-                    seen.add(arc.end)
-                    waiting.append(arc.end)
-    return found

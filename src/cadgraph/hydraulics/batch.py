@@ -279,16 +279,17 @@ class ProcessBatch:
         found = np.full((len(self.gauges), len(plants)), np.nan)
         for row, tag in enumerate(self.gauges):
             gauge, node = scenario.gauges[tag], balance.circuit.gauges.get(tag)
-            if node is None:
+            if gauge.measures == "level":
+                if tag in balance.places.tank_of:
+                    found[row] = self._level[self.tanks.index(balance.places.tank_of[tag]), plants]
+            elif node is None:
                 continue
-            if gauge.measures == "pressure":
+            elif gauge.measures == "pressure":
                 pressure = scenario.pressure(1.0) * (solution.head[node] - balance.circuit.height[node])
                 found[row] = np.where(emptied[node], 0.0, np.maximum(pressure, scenario.fluid.vapour))
             elif gauge.measures == "flow":
                 links = balance.places.links_at_gauge(tag)
                 found[row] = np.abs(solution.flow[links]).max(axis=0) * 3600 if len(links) > 1 else 0.0
-            elif gauge.measures == "level" and tag in balance.places.tank_of:
-                found[row] = self._level[self.tanks.index(balance.places.tank_of[tag]), plants]
         return found
 
     # What never changes

@@ -94,7 +94,7 @@ class Circuit:
         connection: (n_links,) number of the connection in the graph, -1 where there is none.
         friction: of the pipes.
         tags: of valves and pumps: their links, by tag.
-        gauges: of each gauge, by tag: the number of its node.
+        gauges: of each gauge with a line, by tag: the number of its node.
         nozzles: of all tanks.
         remarks: on what could not be represented.
         assumed: how many lengths and bores had to be assumed, by what.
@@ -124,6 +124,14 @@ class Circuit:
     nozzles: tuple[Nozzle, ...]
     remarks: tuple[str, ...]
     assumed: Mapping[str, int]
+
+    def node_of_gauge(self, tag: str) -> str:
+        """The name of a gauge's node; empty where it has no line.
+
+        Args:
+            tag: of the gauge.
+        """
+        return self.nodes[self.gauges[tag]] if tag in self.gauges else ""
 
     @classmethod
     def of(cls, network: Network, scenario: Scenario) -> Circuit:

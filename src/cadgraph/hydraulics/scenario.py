@@ -27,7 +27,7 @@ from cadgraph.model.records import Part, Terminal, Unit
 from cadgraph.query.duty import duty_of, suspect_of
 from cadgraph.query.network import Arc, Network
 
-__all__ = ["SPANS", "guess_end", "guess_scenario", "guess_valve", "with_pressures"]
+__all__ = ["SPANS", "guess_end", "guess_scenario", "guess_valve", "tanks_of_gauges", "with_pressures"]
 
 SPANS = (1.0, 1.6, 2.5, 4.0, 6.0, 10.0, 16.0, 25.0, 40.0, 60.0, 100.0, 160.0, 250.0)
 """Ends of the scales of pressure gauges [bar]; EN 837-1."""
@@ -69,11 +69,17 @@ def guess_scenario(graph: SceneGraph | Network) -> Scenario:
         graph: the finished graph, or its network.
     """
     network = graph if isinstance(graph, Network) else Network(graph)
-    units = [node for place, node in network.places.items() if isinstance(node, Unit) and network.arcs(place)]
+    at_tank = tanks_of_gauges(network)
+    units = [
+        node
+        for place, node in network.places.items()
+        if isinstance(node, Unit) and (network.arcs(place) or (node.tag in at_tank and _shows_level(node)))
+    ]
     of_type: dict[str, list[Unit]] = {}
     for unit in units:
         of_type.setdefault(unit.unit_type, []).append(unit)
     pumps = {unit.tag: _pump(network, unit) for unit in of_type.get("pump", ())}
+    tanks = {unit.tag: _tank(network, unit) for unit in of_type.get("tank", ())}
     ends = _Ends(network, pumps).settings()
     named = {**{unit.tag: unit for unit in units}, **{end: network.places[end] for end in ends}}
     return Scenario(
@@ -82,8 +88,8 @@ def guess_scenario(graph: SceneGraph | Network) -> Scenario:
         valves={unit.tag: guess_valve(network, unit) for unit in of_type.get("valve", ())},
         pumps=pumps,
         ends=ends,
-        tanks={unit.tag: _tank(network, unit) for unit in of_type.get("tank", ())},
-        gauges={unit.tag: _gauge(unit) for unit in of_type.get("gauge", ())},
+        tanks=tanks,
+        gauges={unit.tag: _gauge(unit, tanks.get(at_tank.get(unit.tag, ""))) for unit in of_type.get("gauge", ())},
         names={name: mesh for name, node in named.items() if (mesh := _largest_mesh(network, node)) is not None},
     )
 
@@ -390,6 +396,35 @@ def guess_end(network: Network, place: str, role: EndRole, reason: str = "given"
 # Tanks and gauges
 
 
+def tanks_of_gauges(network: Network) -> dict[str, str]:
+    """The tank that each gauge hangs at, by tags: with nothing but valves and gauges between.
+
+    A gauge without a line hangs at the tank that it is mounted at; where that may be several units, at none.
+
+    Args:
+        network: of the graph.
+    """
+    found: dict[str, str] = {}
+    for place, node in network.places.items():
+        if not isinstance(node, Unit) or node.unit_type != "gauge":
+            continue
+        mounted = network.mounted_at(place)
+        if len(mounted) == 1 and network.unit_type(mounted[0]) == "tank" and network.arcs(mounted[0]):
+            found[node.tag] = network.name(mounted[0])
+        seen, waiting = {place}, [place]
+        while waiting:
+            for arc in network.arcs(waiting.pop()):
+                other = network.places[arc.end]
+                if arc.end in seen or not isinstance(other, Unit):
+                    continue
+                if other.unit_type == "tank":
+                    found.setdefault(node.tag, other.tag)
+                elif other.unit_type in ("valve", "gauge"):
+                    seen.add(arc.end)
+                    waiting.append(arc.end)
+    return found
+
+
 def _tank(network: Network, unit: Unit) -> TankSetting:
     parts = [node for part in unit.parts if isinstance(node := network.graph.nodes.get(part), Part)]
     shell = max(parts, key=lambda part: _size(part.aabb), default=None)
@@ -431,14 +466,19 @@ def _size(box: tuple[tuple[float, float, float], tuple[float, float, float]]) ->
     return math.prod(high - low for low, high in zip(*box, strict=True))
 
 
-def _gauge(unit: Unit) -> GaugeSetting:
+def _shows_level(unit: Unit) -> bool:
+    return "level" in (unit.kind or "").casefold()
+
+
+def _gauge(unit: Unit, tank: TankSetting | None) -> GaugeSetting:
     kind = (unit.kind or "").casefold()
     lag = "assumed: 0.3 s"
     if any(word in kind for word in ("flow", "rotameter", "water meter")):
         return GaugeSetting(measures="flow", unit="m3/h", why={"measures": f"its kind: {unit.kind}", "lag": lag})
-    if "level" in kind:
-        why = {"measures": f"its kind: {unit.kind}", "lag": lag, "span": "assumed: 10 m"}
-        return GaugeSetting(measures="level", unit="m", span=10.0, why=why)
+    if _shows_level(unit):
+        span = "assumed: 10 m" if tank is None else "assumed: the height of its tank"
+        why = {"measures": f"its kind: {unit.kind}", "lag": lag, "span": span}
+        return GaugeSetting(measures="level", unit="m", span=10.0 if tank is None else tank.height, why=why)
     if "temperature" in kind or "thermometer" in kind:
         return GaugeSetting(measures="nothing", why={"measures": "temperatures are not simulated", "lag": lag})
     said = f"its kind: {unit.kind}" if "pressure" in kind else "assumed: a gauge of unknown kind shows the pressure"

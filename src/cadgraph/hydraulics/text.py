@@ -68,7 +68,7 @@ def standing(process: Process) -> tuple[Standing, ...]:
 def _gauges(process: Process) -> Iterator[Standing]:
     state, circuit = process.state, process.balance.circuit
     for tag, gauge in process.scenario.gauges.items():
-        node = circuit.nodes[circuit.gauges[tag]]
+        node = circuit.node_of_gauge(tag)
         if gauge.measures == "nothing":
             continue
         notes = [f"of {gauge.span:g}"] if gauge.span else []
@@ -233,7 +233,7 @@ def _tags(process: Process) -> Mapping[str, tuple[int, ...]]:
 
 def _gauge_values(process: Process, tag: str) -> dict[str, Any]:
     state, circuit = process.state, process.balance.circuit
-    node = circuit.nodes[circuit.gauges[tag]]
+    node = circuit.node_of_gauge(tag)
     gauge = process.scenario.gauges[tag]
     return {
         "reading": state.reading[tag],

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -18,6 +18,7 @@ __all__ = [
     "bare_nozzles",
     "few_ports",
     "likely_joints",
+    "mounted_words",
     "open_sides",
     "unconnected",
 ]
@@ -126,9 +127,22 @@ def bare_nozzles(network: Network, place: str) -> list[tuple[str, ...]]:
     return found
 
 
-def unconnected(network: Network) -> list[str]:
-    """Tags of the units at which no line was found, in the order of the file."""
-    return [network.name(p) for p, node in network.places.items() if isinstance(node, Unit) and not network.arcs(p)]
+def unconnected(network: Network) -> dict[str, tuple[str, ...]]:
+    """Tags of the units at which no line was found, in the order of the file, with those of what each is mounted at."""
+    return {
+        node.tag: tuple(network.name(unit) for unit in network.mounted_at(place))
+        for place, node in network.places.items()
+        if isinstance(node, Unit) and not network.arcs(place)
+    }
+
+
+def mounted_words(without_line: Mapping[str, Sequence[str]]) -> list[str]:
+    """Units without a line in words, with what they are mounted at: ``G-001 (at T-001)``.
+
+    Args:
+        without_line: as ``unconnected`` gives them.
+    """
+    return [f"{tag} (at {' or '.join(at)})" if at else tag for tag, at in without_line.items()]
 
 
 def likely_joints(network: Network) -> list[Joint]:

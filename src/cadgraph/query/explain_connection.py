@@ -63,6 +63,7 @@ class ConnectionExplanation:
             in order from the start. Empty where none was thought of.
         nearest: where there is no way and no such joint: the parts that are nearest to each other; None without parts.
         recorded: whether the graph names joints at all.
+        mounted: tag of the one that has no line and of the other, that it is mounted at; None where none is.
     """
 
     start: str
@@ -75,6 +76,7 @@ class ConnectionExplanation:
     open_joints: tuple[ToldJoint, ...] = ()
     nearest: Nearest | None = None
     recorded: bool = True
+    mounted: tuple[str, str] | None = None
 
     @property
     def weakest(self) -> ToldJoint | None:
@@ -107,11 +109,12 @@ class ConnectionExplanation:
 
     def _gap_rows(self) -> list[tuple[str, str]]:
         rows = [("separate", f"no way along the pipes leads from {self.start} to {self.end}")]
+        rows += [("mounted", f"{self.mounted[0]} is mounted at {self.mounted[1]}")] if self.mounted else []
         rows += [("not joined", say_joint(joint)) for joint in self.open_joints]
         if self.joints:
             rows += [("joined", say_joint(joint)) for joint in self.joints]
             rows.append(("note", "they are joined part by part, but no run of pipe was made of that"))
-        elif not self.open_joints:
+        elif not self.open_joints and not self.mounted:
             rows.append(("between", _said_nearest(self.nearest)))
         return rows
 
@@ -138,7 +141,17 @@ def explain_connection(graph: SceneGraph | Network, start: str, end: str) -> Con
     if first == last:
         raise ValueError(f"{start} and {end} are both {network.name(first)}: give two different ones")
     blank = ConnectionExplanation(
-        start=network.name(first), end=network.name(last), recorded=bool(network.graph.joints())
+        start=network.name(first),
+        end=network.name(last),
+        recorded=bool(network.graph.joints()),
+        mounted=next(
+            (
+                (network.name(one), network.name(other))
+                for one, other in ((first, last), (last, first))
+                if other in network.mounted_at(one)
+            ),
+            None,
+        ),
     )
     search = _Search(network)
     distances, ways = network.shortest(first, network.follower(None))

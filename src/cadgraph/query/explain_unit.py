@@ -70,6 +70,7 @@ class UnitExplanation:
         ports: ways out of it, in order.
         least: how many lines a unit of its kind needs; None for what is no unit.
         used: how many it has.
+        mounted_at: tags of the units that it sits at, where it has no line; several where it can't be told which.
         joints: that were made at it but at none of its ports.
         open_joints: that were not made at it, the likeliest first.
         recorded: whether the graph names joints at all.
@@ -85,6 +86,7 @@ class UnitExplanation:
     ports: tuple[PortInUse, ...]
     least: int | None
     used: int
+    mounted_at: tuple[str, ...]
     joints: tuple[ToldJoint, ...]
     open_joints: tuple[ToldJoint, ...]
     recorded: bool
@@ -108,11 +110,14 @@ class UnitExplanation:
             rows.append((f"{self._word} {port.port}" if port.port else self._word, _said_port(port)))
             rows += [("", say_joint(joint)) for joint in port.joints]
         rows += [("joined", say_joint(joint)) for joint in self.joints]
+        rows += [("mounted at", " or ".join(self.mounted_at))] if self.mounted_at else []
         return rows + self._lacking_rows() + fact_rows(self.facts)
 
     def _lacking_rows(self) -> list[tuple[str, str]]:
         """What is missing for its kind, and what might be joined to it."""
-        rows = []
+        rows: list[tuple[str, str]] = []
+        if self.unit_type == "gauge" and self.mounted_at and not self.open_joints:
+            return rows  # a gauge on a vessel or a device needs no line
         if self.missing:
             has = f"{self.used or 'none'} of {self.least} {self._word}s"
             rows.append(("missing", f"{has} with a line: {self.missing} more would make a whole {self.what}"))
@@ -155,6 +160,7 @@ def explain_unit(graph: SceneGraph | Network, which: str) -> UnitExplanation:
         ports=ports,
         least=least_ports(node.unit_type, node.kind) if isinstance(node, Unit) else None,
         used=network.ports_in_use(place),
+        mounted_at=tuple(map(network.name, network.mounted_at(place))),
         joints=elsewhere,
         open_joints=tuple(joint for joint in told if not joint.made),
         recorded=bool(network.graph.joints()),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import reprlib
 from functools import cached_property
 
@@ -15,6 +16,8 @@ __all__ = ["DRAWN_FROM_DOUBT", "Arc", "Flow", "Network", "Place"]
 
 DRAWN_FROM_DOUBT = "dexpi-doubtful"
 """Code of the diagnostic that lists the nodes of a drawing at which the graph that it was written from had doubts."""
+
+_BETWEEN = 3  # pieces from a gauge to what it is mounted at: a cock, a flange, a nozzle
 
 
 class Network(Pipework):
@@ -39,17 +42,42 @@ class Network(Pipework):
         return self.graph.find(which, Unit, Junction, Terminal).id
 
     def unconnected(self, place: str, asked: str) -> Unconnected:
-        """The error that says that no line was found at a unit, and which units with lines it touches.
+        """The error that says that no line was found at a unit, and what it is mounted at.
 
         Args:
             place: its id.
             asked: what can't be said.
         """
-        parts = self.places[place].parts
-        near = [part.id for own in parts for part in self.graph.neighbors(self.graph.part(own))]
-        owners = {owner for part in near if (owner := self.owner_of_part(part)) is not None and owner != place}
-        units = [owner for owner in owners if isinstance(self.places[owner], Unit) and self.arcs(owner)]
-        return Unconnected(self.name(place), asked, sorted(map(self.name, units), key=natural_key))
+        return Unconnected(self.name(place), asked, [self.name(unit) for unit in self.mounted_at(place)])
+
+    def mounted_at(self, place: str) -> tuple[str, ...]:
+        """The units that a unit without a line touches; of a gauge those nearest over pieces of nothing else.
+
+        Between a level gauge and its tank there are often cocks, flanges and guards that are no unit and lie on no
+        line. They count where none of them is larger than the gauge: what is larger may bear more than that.
+
+        Args:
+            place: its id.
+
+        Returns:
+            Ids, in the order of their tags; several where it can't be told at which of them. Empty for a unit with
+            lines, and for what is no unit.
+        """
+        unit = self.places[place]
+        if not isinstance(unit, Unit) or self.arcs(place):
+            return ()
+        largest = math.dist(*unit.aabb) if unit.unit_type == "gauge" else 0.0
+        edge = [self.graph.part(part) for part in unit.parts]
+        seen = {part.id for part in edge}
+        for _ in range(1 + _BETWEEN):
+            near = {part.id: part for piece in edge for part in self.graph.neighbors(piece) if part.id not in seen}
+            owners = {owner for part in near if (owner := self.owner_of_part(part)) is not None}
+            units = [owner for owner in owners if isinstance(self.places[owner], Unit)]
+            if units:
+                return tuple(sorted(units, key=lambda owner: natural_key(self.name(owner))))
+            seen.update(near)
+            edge = [part for part in near.values() if part.id not in self.carried and math.dist(*part.aabb) <= largest]
+        return ()
 
     @cached_property
     def doubted(self) -> frozenset[str]:

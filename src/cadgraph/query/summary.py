@@ -51,7 +51,7 @@ class Summary:
         n_junctions: where three or more lines meet.
         ends: number of ends of lines by kind (``open``, ``blind``, ``unknown``).
         n_systems: connected networks of pipes.
-        without_line: tags of the units at which no line was found.
+        without_line: tags of the units at which no line was found, with those of the units that each is mounted at.
         n_related: pairs of units that Algorithm 1 of the paper relates.
         diagnostics: number of findings' meshes (or findings, where they name none) by code.
         ground: which mesh was taken for the ground and why; where none was, why the likeliest was not.
@@ -73,7 +73,7 @@ class Summary:
     n_junctions: int
     ends: dict[str, int]
     n_systems: int
-    without_line: tuple[str, ...]
+    without_line: dict[str, tuple[str, ...]]
     n_related: int
     diagnostics: dict[str, int]
     ground: tuple[str, ...]
@@ -116,7 +116,7 @@ def summarize(graph: SceneGraph) -> Summary:
         n_junctions=len(graph.junctions()),
         ends=dict(sorted(Counter(end.kind for end in graph.terminals()).items())),
         n_systems=len(graph.systems()),
-        without_line=tuple(unconnected(Network(graph))) if graph.connections() else (),
+        without_line=unconnected(Network(graph)) if graph.connections() else {},
         n_related=len(graph.related()),
         diagnostics=dict(sorted(findings.items())),
         ground=_ground(graph.diagnostics),

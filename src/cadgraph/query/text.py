@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from cadgraph.query.compare import Comparison, Difference, Missing
-from cadgraph.query.doubt import Doubt, bare_nozzles, few_ports, likely_joints, unconnected
+from cadgraph.query.doubt import Doubt, bare_nozzles, few_ports, likely_joints, mounted_words, unconnected
 from cadgraph.query.isolate import PASSED_OVER, Isolation
 from cadgraph.query.lines import Line
 from cadgraph.query.network import Network
@@ -76,7 +76,7 @@ def line_table(lines: Sequence[Line]) -> list[str]:
 
 def gap_lines(network: Network) -> list[str]:
     """What a line list may lack: units without a line or with too few, and joints that were not made."""
-    without = unconnected(network)
+    without = mounted_words(unconnected(network))
     short = [
         f"{network.name(place)} ({few[0]} of {few[1]})"
         for place in network.places

@@ -16,6 +16,7 @@ from cadgraph.config import ReportConfig
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Connected
 from cadgraph.model.scene import Scene
+from cadgraph.query.doubt import mounted_words
 from cadgraph.query.summary import connection_words, end_words, share_words, summarize
 
 if TYPE_CHECKING:
@@ -118,7 +119,7 @@ def _facts(graph: SceneGraph) -> dict[str, Any]:
         "labelled": share_words(summary.n_labelled, len(parts)),
         "units": sum(len(tags) for tags in summary.units.values()),
         "unit_types": [_plural(len(tags), name) for name, tags in summary.units.items()],
-        "without_line": summary.without_line,
+        "without_line": mounted_words(summary.without_line),
         "connections": summary.n_connected,
         "connection_words": connection_words(summary),
         "ends": sum(summary.ends.values()),

@@ -38,6 +38,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("--drawn", type=int, default=usual.drawn)
     parser.add_argument("--others", type=int, default=usual.others)
     parser.add_argument("--members", type=int, default=usual.members)
+    parser.add_argument("--draws", type=int, default=usual.draws)
     parser.add_argument("--folds", type=int, default=usual.folds)
     parser.add_argument("--seeds", type=int, default=usual.seeds)
     parser.add_argument("--epochs", type=int, default=usual.recipe.epochs)
@@ -46,8 +47,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
     given = parser.parse_args(arguments)
     course = replace(
         usual, plants=given.plants, drawn=given.drawn, others=given.others,
-        members=given.members, folds=given.folds, seeds=given.seeds, ablations=not given.no_ablations,
-        recipe=replace(usual.recipe, epochs=given.epochs),
+        members=given.members, draws=given.draws, folds=given.folds, seeds=given.seeds,
+        ablations=not given.no_ablations, recipe=replace(usual.recipe, epochs=given.epochs),
     )  # fmt: skip
     plants = read_real_plants(given.real) if given.real else []
     parts = read_real_parts(given.real / "parts", given.plants_in / source_digest()) if given.real else []

@@ -76,6 +76,7 @@ class Course:
         others: scenes of shapes that belong to no plant, and as many of rare things; two thirds as many of loose
             fasteners.
         members: networks whose answers are averaged.
+        draws: of plants among which the members take turns; the folds learn from the first.
         folds: each holds out some of the authoring systems, of the families of devices and of the makers of real parts.
         seeds: plants of each kind that the networks are tried on.
         ablations: whether networks that lack something are trained for comparison.
@@ -85,7 +86,8 @@ class Course:
     plants: int = 720
     drawn: int = 80
     others: int = 48
-    members: int = 5
+    members: int = 10
+    draws: int = 2
     folds: int = 4
     seeds: int = 3
     ablations: bool = True
@@ -149,23 +151,23 @@ def run_course(
         told: how far it is.
     """
     folder = folder / source_digest()
-    samples = training_samples(course.plants, course.drawn, course.others)
-    examples = build_samples(samples, folder, workers, told)
+    draws = [tuple(training_samples(course.plants, course.drawn, course.others, k)) for k in range(course.draws)]
+    examples, *more = (build_samples(samples, folder, workers, told) for samples in draws)
     tried = {
         name: build_samples(some, folder, workers, lambda text, name=name: told(f"{name}: {text}"))  # type: ignore[misc]
         for name, some in held_out_lessons(course.seeds).items()
     }
     classes = known_classes()
     folds = deal_folds(examples, parts, course.folds)
-    outs = [*folds, *[Fold()] * course.members]
-    job = _Job(tuple(samples), folder, tuple(classes), course.recipe, 0, Fold(), tuple(parts))
-    jobs = [replace(job, seed=seed, out=out) for seed, out in enumerate(outs)]
+    job = _Job(draws[0], folder, tuple(classes), course.recipe, 0, Fold(), tuple(parts))
+    jobs = [replace(job, seed=seed, out=out) for seed, out in enumerate(folds)]
+    jobs += [replace(job, seed=len(folds) + k, samples=draws[k % len(draws)]) for k in range(course.members)]
     lacking = {name: replace(jobs[0], recipe=replace(course.recipe, **change)) for name, change in ABLATIONS.items()}
     lacking["without single real parts"] = replace(jobs[0], parts=())
     if not course.ablations:
         lacking = {}
     networks = _train([*jobs, *lacking.values()], workers, told)
-    members, others = networks[len(folds) : len(outs)], networks[len(outs) :]
+    members, others = networks[len(folds) : len(jobs)], networks[len(jobs) :]
     trials = [_Trial(network, fold, tried, parts) for network, fold in zip(networks, folds, strict=False)]
 
     def asked(value: float, which: str) -> Answers:
@@ -178,9 +180,11 @@ def run_course(
     compared = [("as it is", trials[0]), *without] if lacking else []
     ablations = {name: (trial.systems(classes, best), trial.makers(classes, best)) for name, trial in compared}
     card = {
-        "plants": course.plants, "plants in drawn styles": course.drawn, "scenes of others": course.others,
+        "draws": course.draws, "plants": course.plants, "plants in drawn styles": course.drawn,
+        "scenes of others": course.others,
         "systems": list(SYSTEMS), "tried from": TRIED_FROM,
-        "parts": int(sum(len(e.label) for e in examples)), "recipe": asdict(course.recipe), "folds": course.folds,
+        "parts": int(sum(len(e.label) for some in (examples, *more) for e in some)),
+        "recipe": asdict(course.recipe), "folds": course.folds,
         "generator": folder.name,
         "held-out systems": _card(score(systems, least)),
         "held-out systems and families": _card(score(families, least)),

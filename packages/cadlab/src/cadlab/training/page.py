@@ -17,7 +17,7 @@ __all__ = ["write_page"]
 
 _FASTENERS = ("bolt", "nut", "washer", "stud", "screw")
 _CONFUSIONS = 20
-_WORDS = ("No", "One", "Two", "Three", "Four", "Five", "Six")
+_WORDS = ("No", "One", "Two", "Three", "Four", "Five", "Six", "Seven", "Eight", "Nine", "Ten")
 _SEEN_ALIKE: Mapping[str, tuple[str, ...]] = {
     "railing, fence, gate, ladder, stair": ("railing", "fence", "gate", "ladder", "stair tread"),
     "flange, bonnet, blind flange, base plate": ("flange", "valve bonnet", "blind flange", "base plate"),

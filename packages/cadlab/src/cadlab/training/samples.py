@@ -24,7 +24,7 @@ from cadplants.solids.transforms import spun
 from cadplants.styles.drawn_styles import draw_modeling_style
 from cadplants.styles.modeling_style import STYLES, ModelingStyle
 
-__all__ = ["SINS", "Sample", "build_samples", "held_out_lessons", "training_samples"]
+__all__ = ["LEFT_OUT", "SINS", "Sample", "build_samples", "held_out_lessons", "training_samples"]
 
 SINS: dict[str, Defects] = {
     "duplicates": Defects(duplicates=0.3),
@@ -51,6 +51,9 @@ _LOOSE: dict[str, Callable[[int], Plant]] = {
     "fasteners": make_fasteners,
 }
 _BATCH = 12
+_PER_DRAW = 10_000  # seeds
+LEFT_OUT = frozenset({"asset-pack"})
+"""Systems that only the first draw learns from."""
 TRIED_FROM = 100_000
 """Seeds from here on are never learnt from."""
 
@@ -137,7 +140,7 @@ def _retold(style: ModelingStyle, factor: float) -> ModelingStyle:
     return replace(style, sides=(least, most), sag=style.sag / factor**2)
 
 
-def training_samples(systems: int, drawn: int, others: int) -> list[Sample]:
+def training_samples(systems: int, drawn: int, others: int, draw: int = 0) -> list[Sample]:
     """Plants as the authoring systems draw them (assortments and two layouts, some of them on their side); assortments
     in drawn styles, a third with defects, some with their bolts melted into flanges; a sixth of all among distractors;
     rare things; loose fasteners; what belongs to no plant.
@@ -146,21 +149,25 @@ def training_samples(systems: int, drawn: int, others: int) -> list[Sample]:
         systems: plants of all systems together.
         drawn: assortments in drawn styles.
         others: scenes of rare things, and as many of what belongs to no plant; two thirds as many of fasteners.
+        draw: other plants for each. All but the first leave out the systems ``LEFT_OUT``: what only these draw is
+            learnt by some of the networks, and what they cost the plants of engineers is not paid by all.
     """
-    names, plants = list(SYSTEMS), []
-    for seed in range(systems):
-        turn = seed // len(names)
+    names = [name for name in SYSTEMS if draw == 0 or name not in LEFT_OUT]
+    first, plants = draw * _PER_DRAW, []
+    for k in range(systems * len(names) // len(SYSTEMS)):
+        turn = k // len(names)
         kind = _LAYOUTS[turn % len(_LAYOUTS)] if turn % _LAID_OUT_EVERY == 0 else "assortment"
         plants.append(Sample(
-            kind, seed, guests=seed % _VISITED_EVERY == 1, system=names[seed % len(names)],
-            fallen=seed % _FALLEN_EVERY == 2,
+            kind, first + k, guests=k % _VISITED_EVERY == 1, system=names[k % len(names)],
+            fallen=k % _FALLEN_EVERY == 2,
         ))  # fmt: skip
-    for seed in range(drawn):
-        sin = "some" if seed % _SPOILT_EVERY == 0 else ""
-        kind = "bolted" if seed % _BOLTED_EVERY == 2 else "assortment"
-        plants.append(Sample(kind, seed, sin="" if kind == "bolted" else sin, guests=seed % _VISITED_EVERY == 1))
-    loose = [Sample(kind, seed) for kind, n in (("rare", others), ("strangers", others), ("fasteners", 2 * others // 3))
-             for seed in range(n)]  # fmt: skip
+    for k in range(drawn):
+        sin = "some" if k % _SPOILT_EVERY == 0 else ""
+        kind = "bolted" if k % _BOLTED_EVERY == 2 else "assortment"
+        plants.append(Sample(kind, first + k, sin="" if kind == "bolted" else sin, guests=k % _VISITED_EVERY == 1))
+    loose = [Sample(kind, first + k)
+             for kind, n in (("rare", others), ("strangers", others), ("fasteners", 2 * others // 3))
+             for k in range(n)]  # fmt: skip
     return plants + loose
 
 
