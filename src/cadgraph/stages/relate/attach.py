@@ -41,7 +41,7 @@ _FLAT, _AGREES = 0.6, 0.2
 _TIGHT = 0.001
 # Two solids are flanged to each other where they meet in a flat round area: normals this parallel, extents this alike,
 # and at least this large against the lesser solid.
-_FACE_FLAT, _FACE_ROUND, _FACE_SHARE = 0.9, 0.72, 0.25
+_FACE_FLAT, _FACE_ROUND, _FACE_SHARE, _FACE_THIN = 0.9, 0.72, 0.25, 0.2
 # An end within this much [m], or this share of its radius, of another one that looks the same way is its twin, where
 # the two lines run beside each other by at least this much [m] or this share of the shorter: a pipe in its flange, but
 # not a gasket behind it.
@@ -483,6 +483,9 @@ def _offer(ends: Ends, row: int, touch: _Touch, ahead: EndsAhead) -> Offer | Non
     if not -depth - 0.001 <= along <= touch.gap + 0.5 * radius + 0.005 or off > _OFF * radius + touch.gap:
         return None
     facing = None if touch.normal is None else float(touch.normal @ direction)
+    if facing is not None and along < 0:
+        # Where one runs into the other, which side of the contact is whose can't be told.
+        facing = abs(facing)
     if facing is not None and facing < _AGREES:
         return None
     hidden = touch.gap > _TIGHT and is_hidden(ahead.of(row), touch.gap, (touch.part,))
@@ -490,9 +493,16 @@ def _offer(ends: Ends, row: int, touch: _Touch, ahead: EndsAhead) -> Offer | Non
 
 
 def flat_contacts(
-    parts: Parts, contacts: Contacts, pairs: Iterable[tuple[int, int]], eps: float
+    parts: Parts, contacts: Contacts, pairs: Iterable[tuple[int, int]], eps: float, deep: float = _FACE_THIN
 ) -> dict[tuple[int, int], tuple[Floats, Floats]]:
     """Pairs of parts that are flanged to each other: they meet in a flat round area.
+
+    Args:
+        parts: of the scene.
+        contacts: pairs of parts that are near.
+        pairs: of these, first < second, those that are looked at.
+        eps: greatest gap [m].
+        deep: how far one may run into the other, as share of the width of the area.
 
     Returns:
         For each such pair the middle of the area [m] and its normal, from the first to the second.
@@ -511,7 +521,7 @@ def flat_contacts(
         if (
             regions.flatness[k] >= _FACE_FLAT
             and high >= _FACE_ROUND * wide
-            and thin <= 0.2 * wide + 0.002
+            and thin <= deep * wide + 0.002
             and wide >= _FACE_SHARE * size
         ):
             found[a, b] = regions.centroid[k], regions.normal[k]

@@ -12,7 +12,6 @@ from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.labels import Label
 from cadgraph.model.parts import Joint, Network, Parts, UnitParts, owners_of
 from cadgraph.stages.relate.algorithm import find_units, number_units
-from cadgraph.stages.relate.attach import flat_contacts
 from cadgraph.stages.relate.contract import Closed, simplify
 from cadgraph.stages.relate.cover import Cover, cover_of
 from cadgraph.stages.relate.edit_flow import set_flow, unmet_flow
@@ -22,6 +21,7 @@ from cadgraph.stages.relate.edits import Unmet
 from cadgraph.stages.relate.flow import direct_flow, stated_flow
 from cadgraph.stages.relate.kind import name_kinds
 from cadgraph.stages.relate.line import is_disc
+from cadgraph.stages.relate.meet import meet_directly
 from cadgraph.stages.relate.network import Drawing, draw_network
 from cadgraph.stages.relate.offer import Offer
 from cadgraph.stages.relate.piping import Group, Piping, RelateInput
@@ -131,7 +131,7 @@ def _as_paper(given: RelateInput) -> Connected:
 def _joints(piping: Piping, units: Sequence[UnitParts], drawing: Drawing) -> tuple[Joint, ...]:
     """The joints, with those of solids that a user made."""
     made = [joint_of_solids(pair, points) for pair, points in sorted(drawing.by_user.items(), key=lambda row: row[0])]
-    return (*record_joints(piping, units, drawing.flanged), *made)
+    return (*record_joints(piping, units, drawing.met), *made)
 
 
 def _unjoined(piping: Piping, network: Network) -> list[Unmet]:
@@ -164,22 +164,14 @@ def _likeliest_names(piping: Piping) -> list[str | None]:
 def _draw(piping: Piping, units: Sequence[UnitParts]) -> Drawing:
     """The network of lines between units, every piece between two joints a span."""
     given = piping.given
-    flanged = flat_contacts(given.parts, given.contacts, _between(piping, units), given.config.cluster.eps)
-    where = {pair: middle for pair, (middle, _) in flanged.items() if pair not in given.edits.cut}
     owner = {part: -1 - part for part in piping.lineless} | owners_of(units)
     bridged = bridge_solids(given.edits, given.parts, piping.lines, owner)
-    where = {pair: middle for pair, middle in where.items() if pair not in bridged}
+    met = {pair: how for pair, how in meet_directly(piping, units).items() if pair not in bridged}
 
     def confidence(part: int) -> float:
         return 1.0 if given.is_connector[part] else _BY_SHAPE
 
-    return draw_network(piping.lines, piping.lineless, units, piping.joints, where, confidence, bridged)
-
-
-def _between(piping: Piping, units: Sequence[UnitParts]) -> list[tuple[int, int]]:
-    """Pairs of solids in contact that are not of one unit."""
-    owner = {part: -1 - part for part in piping.lineless} | owners_of(units)
-    return [(a, b) for a, b in piping.given.contacts.plain_pairs if a in owner and b in owner and owner[a] != owner[b]]
+    return draw_network(piping.lines, piping.lineless, units, piping.joints, met, confidence, bridged)
 
 
 def _contract(piping: Piping, units: Sequence[UnitParts], drawing: Drawing, names: Sequence[str | None]) -> Network:

@@ -16,12 +16,29 @@ from cadgraph.stages.relate.attach import Attachments, Side
 from cadgraph.stages.relate.line import is_disc
 from cadgraph.stages.relate.span import Net, Span, length_of
 
-__all__ = ["FLANGED_SCORE", "SIDE_SCORE", "TWIN_SCORE", "Drawing", "draw_network", "gauge_sides"]
+__all__ = ["FLANGED_SCORE", "SIDE_SCORE", "TWIN_SCORE", "Drawing", "Meeting", "draw_network", "gauge_sides"]
 
 TWIN_SCORE, FLANGED_SCORE, SIDE_SCORE = 0.99, 0.97, 0.85
-"""How sure a joint is that no offer tells (ours): ends in one place, flanged solids, gauges on the sides of lines."""
+"""How sure a joint is that no offer tells (ours): ends in one place, flanged solids, gauges at a line or a device."""
 _TOUCHING = 0.001  # ends this near touch [m]
 _SAME_PLACE = 1e-6  # positions on a branch closer than this are one [m]
+
+
+@dataclass(frozen=True)
+class Meeting:
+    """Two solids that are joined to each other.
+
+    Args:
+        point: ``(3,)`` where [m].
+        gap: between them [m].
+        score: how sure that is, 0..1.
+        why: what speaks for it.
+    """
+
+    point: Floats
+    gap: float
+    score: float
+    why: str
 
 
 @dataclass(frozen=True)
@@ -35,7 +52,7 @@ class Drawing:
         taps: nodes where something sits on the side of a line.
         solids: nodes that are a connector without a line, and which part.
         bridged: parts on both sides of each bridged gap, and the gap [m].
-        flanged: pairs of solids that are flanged to each other, and where [m].
+        met: pairs of solids that are joined without a line between, and how.
         by_user: pairs of solids that a user joined, and the two ends of the gap between them [m].
     """
 
@@ -45,7 +62,7 @@ class Drawing:
     taps: frozenset[int]
     solids: Mapping[int, int]
     bridged: tuple[tuple[int, int, float], ...]
-    flanged: Mapping[tuple[int, int], Floats] = field(default_factory=dict)
+    met: Mapping[tuple[int, int], Meeting] = field(default_factory=dict)
     by_user: Mapping[tuple[int, int], Floats] = field(default_factory=dict)
 
 
@@ -87,7 +104,7 @@ def draw_network(
     solids: Sequence[int],
     units: Sequence[UnitParts],
     found: Attachments,
-    flanged: Mapping[tuple[int, int], Floats],
+    met: Mapping[tuple[int, int], Meeting],
     sure: Callable[[int], float],
     bridged: Mapping[tuple[int, int], Floats] = MappingProxyType({}),
 ) -> Drawing:
@@ -98,7 +115,7 @@ def draw_network(
         solids: connector parts without a line.
         units: with their parts.
         found: what joins what.
-        flanged: pairs of solids that are flanged to each other, and where [m].
+        met: pairs of solids that are joined without a line between, and how.
         sure: how sure it is that a part is a connector.
         bridged: pairs of solids that a user joined across a gap, and the two ends of it, ``(2, 3)`` [m].
     """
@@ -114,9 +131,9 @@ def draw_network(
     for part in sorted(lines):
         _draw_line(draft, part, sure(part))
     _draw_mounts(draft)
-    _draw_flanged(draft, {pair: point[None] for pair, point in flanged.items()}, FLANGED_SCORE)
-    _draw_flanged(draft, bridged, 1.0)
-    return replace(_finish(draft), flanged=flanged, by_user=bridged)
+    _draw_solids(draft, {pair: (how.point[None], how.score) for pair, how in met.items()})
+    _draw_solids(draft, {pair: (way, 1.0) for pair, way in bridged.items()})
+    return replace(_finish(draft), met=met, by_user=bridged)
 
 
 def _join_ends(draft: _Draft) -> None:
@@ -264,9 +281,9 @@ def _draw_mounts(draft: _Draft) -> None:
             draft.spans.append(Span(here, node, (mount.part,), point[None], 0.0, (), sure))
 
 
-def _draw_flanged(draft: _Draft, flanged: Mapping[tuple[int, int], Floats], sure: float) -> None:
+def _draw_solids(draft: _Draft, joined: Mapping[tuple[int, int], tuple[Floats, float]]) -> None:
     """Spans between solids that are joined to each other, by the way between them: one point, or two."""
-    for (a, b), way in sorted(flanged.items(), key=lambda item: item[0]):
+    for (a, b), (way, sure) in sorted(joined.items(), key=lambda item: item[0]):
         first = draft.owner.get(a, draft.node_of_solid.get(a))
         second = draft.owner.get(b, draft.node_of_solid.get(b))
         if first is None or second is None or first == second:

@@ -8,7 +8,7 @@ from cadgraph.model.parts import Joint, UnitParts
 from cadgraph.model.scene import Floats
 from cadgraph.stages.relate.attach import Attachments
 from cadgraph.stages.relate.edits import CUT
-from cadgraph.stages.relate.network import FLANGED_SCORE, SIDE_SCORE, TWIN_SCORE, gauge_sides
+from cadgraph.stages.relate.network import SIDE_SCORE, TWIN_SCORE, Meeting, gauge_sides
 from cadgraph.stages.relate.offer import Offer
 from cadgraph.stages.relate.piping import Piping
 
@@ -19,14 +19,14 @@ _SLEEVE = "lies along the other one, as in a sleeve"
 
 
 def record_joints(
-    piping: Piping, units: Sequence[UnitParts], flanged: Mapping[tuple[int, int], Floats]
+    piping: Piping, units: Sequence[UnitParts], met: Mapping[tuple[int, int], Meeting]
 ) -> tuple[Joint, ...]:
     """The joints that connections are made of, and for each end that joins nothing the likeliest one.
 
     Args:
         piping: what joins what.
         units: in order.
-        flanged: pairs of solids that are flanged to each other, and where [m].
+        met: pairs of solids that are joined to each other, and how.
     """
     found = piping.joints
     joints = [*_made(found), *_twins(found), *_refused(found)]
@@ -35,9 +35,8 @@ def record_joints(
     for side in gauge_sides(found, units, piping.lines).values():
         why = ("no line ends at it, and it touches this one",)
         joints.append(Joint(side.solid, side.part, "side", _point(side.tap.point), side.tap.gap, SIDE_SCORE, True, why))
-    for (a, b), point in flanged.items():
-        why = ("they meet in a flat round area",)
-        joints.append(Joint(a, b, "flange", _point(point), 0.0, FLANGED_SCORE, True, why))
+    for (a, b), how in met.items():
+        joints.append(Joint(a, b, "flange", _point(how.point), how.gap, how.score, True, (how.why,)))
     return tuple(sorted(joints, key=lambda joint: (joint.first, joint.second, joint.point, joint.kind)))
 
 

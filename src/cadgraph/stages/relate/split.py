@@ -22,6 +22,7 @@ _LOPSIDED = 1.5
 # What no name calls a piece of a device is a whole one from so many pipe diameters on: the caps of a three-piece valve
 # are shorter.
 _WHOLE = 1.2
+_STRAIGHT = 0.99  # cosine between the directions of the two ends of a straight piece
 _SPLIT = frozenset({"valve", "pump", "gauge"})
 
 
@@ -47,7 +48,8 @@ def _split(piping: Piping, group: Group, own: Mapping[int, Sequence[int]]) -> li
     if group.unit_type not in _SPLIT or not own or len(own.keys() | {a for a, _ in beyond}) < 2:
         return [group]
     cores = _cores(piping, group, own, beyond)
-    return _divide(piping, group, cores) if len(cores) > 1 else [group]
+    found = _divide(piping, group, cores) if len(cores) > 1 else [group]
+    return [piece for some in found for piece in _cut_at_nipples(piping, some, own)]
 
 
 @dataclass(frozen=True)
@@ -129,6 +131,39 @@ def _feet(group: Group, bodies: Collection[int], holders: Collection[int]) -> li
     return [body for body in bodies if body in holders or len(group.parts) == len(bodies)]
 
 
+def _cut_at_nipples(piping: Piping, group: Group, own: Mapping[int, Sequence[int]]) -> list[Group]:
+    """A group cut where a straight piece of line ends at one body of it on the one side and at another on the other.
+
+    Its devices touch beside that piece: a lever reaches to the next one. Each side must be a device without it: lead to
+    another line, or be whole by itself.
+    """
+    if group.unit_type not in _SPLIT:
+        return [group]
+    for rows in _straight_between(piping.joints, group, own):
+        bodies = [part for part in group.parts if not rows.isdisjoint(own.get(part, ()))]
+        sides = _divide(piping, group, bodies)
+        if all(
+            _is_complete(piping, body, own[body])
+            or any(row not in rows for part in side.parts for row in own.get(part, ()))
+            for body, side in zip(bodies, sides, strict=True)
+        ):
+            return [piece for side in sides for piece in _cut_at_nipples(piping, side, own)]
+    return [group]
+
+
+def _straight_between(found: Attachments, group: Group, own: Mapping[int, Sequence[int]]) -> list[frozenset[int]]:
+    """The two ends of each straight piece of line between two bodies of a group."""
+    ends = found.ends
+    at = {row: part for part in group.parts for row in own.get(part, ())}
+    pairs = [
+        frozenset((row, other))
+        for row in at
+        for other in ends.of_part[int(ends.part[row])]
+        if row < other and other in at and at[other] != at[row]
+    ]
+    return [pair for pair in pairs if float(np.prod(ends.direction[sorted(pair)], axis=0).sum()) <= -_STRAIGHT]
+
+
 def _pairs_within(parts: Sequence[int], near: Mapping[int, Sequence[int]]) -> list[tuple[int, int]]:
     """The pairs of some parts that are near each other, first < second."""
     inside = set(parts)
@@ -136,8 +171,10 @@ def _pairs_within(parts: Sequence[int], near: Mapping[int, Sequence[int]]) -> li
 
 
 def _beyond(piping: Piping, group: Group) -> list[tuple[int, int]]:
-    """The parts of a group and those of other units that are near each other, its own first."""
-    near, members, inside = piping.given.neighbors, piping.members, set(group.parts)
+    """The parts of a group and those of other units, or fittings without a line, that are near each other, its own
+    first.
+    """
+    near, members, inside = piping.given.neighbors, piping.members.union(piping.lineless), set(group.parts)
     return [(a, b) for a in group.parts for b in near.get(a, ()) if b in members and b not in inside]
 
 

@@ -13,12 +13,13 @@ from cadgraph.stages.relate.enclosed import holds_disc
 from cadgraph.stages.relate.piping import Group, Piping, RelateInput
 from cadgraph.stages.relate.role import Roles
 
-__all__ = ["connected_groups", "is_loose", "mend_units", "take_in_enclosed"]
+__all__ = ["OPERATORS", "connected_groups", "is_loose", "mend_units", "take_in_enclosed"]
 
 _FASTENERS = FASTENERS | {"gasket"}
-_OPERATORS = frozenset(
+OPERATORS = frozenset(
     {"valve stem", "handwheel", "lever", "yoke", "gland", "gearbox", "actuator", "position indicator"}
 )
+"""What moves a valve, by name."""
 
 # What stands on a vessel is none by itself, and machines have it, too; what drives a pump drives other machines.
 _ON_VESSELS = frozenset({"nozzle", "manway", "saddle", "skirt", "tank leg", "lifting lug"})
@@ -68,7 +69,7 @@ def is_loose(group: Group, names: Sequence[str | None], reached: Collection[int]
 
 def _is_operator(parts: Collection[int], names: Sequence[str | None]) -> bool:
     """Whether parts are but what moves a valve: a handwheel, a lever, a stem."""
-    return all(names[part] in _OPERATORS for part in parts)
+    return all(names[part] in OPERATORS for part in parts)
 
 
 @dataclass
@@ -150,7 +151,9 @@ def _join_pieces(work: _Work, piping: Piping) -> bool:
     near = piping.given.neighbors
     around = {part for parts in work.parts.values() for member in parts for part in near.get(member, ())}
     changed = False
-    for piece in sorted(around - piping.apart):
+    labels = piping.given.labels
+    # What has no label is likelier a piece of theirs than what would have a wrong one.
+    for piece in sorted(around - piping.apart, key=lambda part: (labels[part] is not None, part)):
         takers = _takers(work, piece, piping) if piece not in work.of_part else []
         if takers:
             work.merge(takers[0], takers[1:], piece)

@@ -1,0 +1,91 @@
+"""Solids that are joined to each other without a line between: flanged, or a gauge screwed into a device."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+
+import numpy as np
+
+from cadgraph.model.parts import UnitParts, owners_of
+from cadgraph.stages.relate.attach import flat_contacts, regions_of
+from cadgraph.stages.relate.network import FLANGED_SCORE, SIDE_SCORE, Meeting, gauge_sides
+from cadgraph.stages.relate.piping import Piping
+from cadgraph.stages.relate.unit import OPERATORS
+
+__all__ = ["meet_directly"]
+
+_DEEP = 0.6  # of their width units run into each other where they are drawn without care for it (share)
+_SCREWED = 0.002  # a gauge is screwed into what is this near [m]; threads are drawn with play
+_AT = frozenset({"valve", "pump", "equipment"})  # what gauges are screwed into; at a tank they may but lean
+
+
+def meet_directly(piping: Piping, units: Sequence[UnitParts]) -> dict[tuple[int, int], Meeting]:
+    """The pairs of solids that are joined without a line between.
+
+    Args:
+        piping: what joins what.
+        units: in order.
+    """
+    given = piping.given
+    pairs = _between(piping, units)
+    flat = flat_contacts(given.parts, given.contacts, pairs, given.config.cluster.eps, _DEEP)
+    found = {
+        pair: Meeting(middle, 0.0, FLANGED_SCORE, "they meet in a flat round area")
+        for pair, (middle, _) in flat.items()
+    }
+    found |= _screwed(piping, units, pairs, found)
+    return {pair: meeting for pair, meeting in found.items() if pair not in given.edits.cut}
+
+
+def _between(piping: Piping, units: Sequence[UnitParts]) -> list[tuple[int, int]]:
+    """Pairs of solids in contact that are not of one unit. What moves a valve joins nothing that it leans on."""
+    names = piping.roles.names
+    moved = {
+        part
+        for unit in units
+        for part in unit.parts
+        if names[part] in OPERATORS and any(names[other] not in OPERATORS for other in unit.parts)
+    }
+    owner = {part: -1 - part for part in piping.lineless} | owners_of(units)
+    owner = {part: own for part, own in owner.items() if part not in moved}
+    return [(a, b) for a, b in piping.given.contacts.plain_pairs if a in owner and b in owner and owner[a] != owner[b]]
+
+
+def _screwed(
+    piping: Piping, units: Sequence[UnitParts], pairs: Collection[tuple[int, int]], joined: Collection[tuple[int, int]]
+) -> dict[tuple[int, int], Meeting]:
+    """For each gauge that neither a line nor a flange holds the device that it touches, the nearest of several."""
+    contacts, owner = piping.given.contacts, owners_of(units)
+    held = {owner.get(part) for pair in joined for part in pair} | {owner.get(part) for part in piping.mounted}
+    held |= set(gauge_sides(piping.joints, units, piping.lines))
+    wanted = set(pairs)
+    best: dict[int, int] = {}
+    gaps = contacts.distance.tolist()
+    for row, (a, b) in enumerate(contacts.plain_pairs):
+        if (a, b) not in wanted or gaps[row] > _SCREWED:
+            continue
+        for gauge, other in ((owner.get(a), owner.get(b)), (owner.get(b), owner.get(a))):
+            if gauge is None or other is None or gauge in held or not _is_on(units[gauge], units[other]):
+                continue
+            if gauge not in best or gaps[row] < gaps[best[gauge]]:
+                best[gauge] = row
+    return _meetings(piping, best)
+
+
+def _is_on(gauge: UnitParts, other: UnitParts) -> bool:
+    return gauge.unit_type == "gauge" and other.unit_type in _AT
+
+
+def _meetings(piping: Piping, rows: Mapping[int, int]) -> dict[tuple[int, int], Meeting]:
+    """What some contacts come to, each as where its middle is."""
+    if not rows:
+        return {}
+    given, index = piping.given, np.array(sorted(set(rows.values())), np.int64)
+    regions = regions_of(given.parts, given.contacts, index, given.config.cluster.eps)
+    why = "no line ends at the gauge, and it touches this"
+    return {
+        given.contacts.plain_pairs[row]: Meeting(
+            regions.centroid[k], float(given.contacts.distance[row]), SIDE_SCORE, why
+        )
+        for k, row in enumerate(index.tolist())
+    }
