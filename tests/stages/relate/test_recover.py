@@ -212,12 +212,13 @@ def test_a_body_between_a_line_and_the_flange_of_a_pump_is_a_valve(likely, found
     assert [group.unit_type for group in groups if 0 in group.parts] == found
 
 
+@pytest.mark.parametrize("radius", [0.025, 0.006])
 @pytest.mark.parametrize(("gauge", "found"), [(0.15, ["valve"]), (0.4, ["gauge"])])
-def test_a_cock_between_a_line_and_a_gauge_is_a_valve_where_it_is_far_likelier_one(gauge, found):
+def test_a_cock_between_a_line_and_a_gauge_is_a_valve_where_it_is_far_likelier_one(gauge, radius, found):
     sketch = Sketch()
     sketch.add(block((0.05, 0, 0), (0.1, 0.06, 0.06)), likely={(VALVE, "valve"): 0.47, (GAUGE, "gauge stem"): gauge})
     sketch.pipe((-1, 0, 0), (0, 0, 0))
-    sketch.add(turned(shapes.cylinder(0.025, 0.1), (0.15, 0, 0), X), GAUGE, "gauge", source="author")
+    sketch.add(turned(shapes.cylinder(radius, 0.1), (0.15, 0, 0), X), GAUGE, "gauge", source="author")
     groups = recover_units(sketch.piping()).groups
     assert [group.unit_type for group in groups if 0 in group.parts] == found
 

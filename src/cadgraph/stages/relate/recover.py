@@ -71,6 +71,7 @@ _MOTOR = frozenset({"motor", "motor fan cover", "coupling guard"})
 # least so likely.
 _SURE, _OTHER, _LIKELY = 0.6, 0.8, 0.5
 _LEAST = 1e-3  # no probability counts for less
+_ROOT = 0.3  # how likely a body that a gauge is screwed into must be a device of its own
 _APART = 2.0  # what is so many times likelier something else is no piece of the unit that it is flanged to
 _MOSTLY_NAMED = 0.5  # below this share of parts that only the labeler has named what has no name is no device
 _STANDING = 0.5  # log-odds that what has the ends of lines at it carries them
@@ -152,7 +153,9 @@ def _behind(piping: Piping, beliefs: Beliefs, body: Body, ends: Ends, row: int) 
     """The type of the unit that a body is flanged to on the axis of the line that ends at it, and how much likelier
     than another piece of that unit the body is something else: a valve at a pump, of which nobody is sure.
     """
-    met = set(_flanged_to(piping, body, ends, row))
+    flanged = set(_flanged_to(piping, body, ends, row))
+    # A gauge is screwed into its root valve, which is no flange.
+    met = (flanged or {"gauge"}) if _touched(piping, body, "gauge") else flanged
     if len(met) != 1:
         return None, 0.0
     (behind,) = met
@@ -161,6 +164,8 @@ def _behind(piping: Piping, beliefs: Beliefs, body: Body, ends: Ends, row: int) 
         for kind in sorted(set(piping.given.vocabulary.unit_of_group.values()))
     }
     likeliest = max((share for kind, share in said.items() if kind != behind), default=0.0)
+    if not flanged and likeliest < _ROOT:
+        return None, 0.0
     return behind, likeliest / max(said[behind], _LEAST)
 
 

@@ -22,6 +22,7 @@ _LOPSIDED = 1.5
 # What no name calls a piece of a device is a whole one from so many pipe diameters on: the caps of a three-piece valve
 # are shorter.
 _WHOLE = 1.2
+_BODY = "valve body"
 _STRAIGHT = 0.99  # cosine between the directions of the two ends of a straight piece
 _SPLIT = frozenset({"valve", "pump", "gauge"})
 
@@ -117,13 +118,17 @@ def _is_complete(piping: Piping, body: int, rows: Sequence[int]) -> bool:
 
 
 def _is_whole(piping: Piping, body: int, row: int) -> bool:
-    """Whether a body is not called a piece of a device, and is longer along its line than a piece of one is."""
+    """Whether a body is longer along its line than a piece of a device is; where it is called a valve's body, longer
+    than wide, too, as the cap of a body in halves never is.
+    """
     group = piping.roles.groups[body]
-    if group is None or piping.roles.names[body] not in (None, piping.given.vocabulary.groups[group].names[0]):
+    if group is None:
         return False
     ends = piping.joints.ends
-    along, _ = extent_about(ends, row, piping.given.parts.scene.mesh(body)[0])
-    return along >= _WHOLE * 2 * float(ends.radius[row])
+    along, reach = extent_about(ends, row, piping.given.parts.scene.mesh(body)[0])
+    name = piping.roles.names[body]
+    may_be = name in (None, piping.given.vocabulary.groups[group].names[0]) or (name == _BODY and along >= 2 * reach)
+    return may_be and along >= _WHOLE * 2 * float(ends.radius[row])
 
 
 def _feet(group: Group, bodies: Collection[int], holders: Collection[int]) -> list[int]:

@@ -1,0 +1,64 @@
+"""Solids that are joined without a line between: flanged, run into each other, or a gauge screwed into a device."""
+
+import pytest
+
+import shapes
+from piping import GAUGE, PUMP, TANK, VALVE, Plant, gauge_mesh, links, merged, turned, valve_mesh
+from sketch import X, block
+
+
+def line_with_valve():
+    """A valve in a run along x, its body a ball of 50 mm around (0.589, 0, 0)."""
+    plant = Plant().pipe((0, 0, 0), (0.5, 0, 0)).pipe((0.678, 0, 0), (1.2, 0, 0))
+    return plant.add(valve_mesh((0.589, 0, 0)), VALVE, "valve")
+
+
+@pytest.mark.parametrize(("gap", "joined"), [(0.0, True), (0.001, True), (0.006, False)])
+def test_a_gauge_screwed_into_a_valve_is_joined_to_it(gap, joined):
+    plant = line_with_valve().add(gauge_mesh((0.589, -0.05 - gap, 0), up=(0, -1, 0), side=(0, 0, 1)), GAUGE, "gauge")
+    graph = plant.graph()
+    assert (("G-001", "V-001") in links(graph)) is joined
+    if joined:
+        [joint] = [joint for joint in graph.joints() if joint.kind == "flange"]
+        assert joint.reasons == ("no line ends at the gauge, and it touches this",)
+        assert joint.gap == pytest.approx(gap, abs=5e-4)
+
+
+def test_a_gauge_that_only_leans_on_a_lever_is_not_joined_to_its_valve():
+    plant = line_with_valve()
+    plant.add(block((0.75, 0, 0.1), (0.3, 0.02, 0.01)), VALVE, "lever")
+    plant.add(gauge_mesh((0.85, 0, 0.105)), GAUGE, "gauge")
+    assert not any("G-001" in pair for pair in links(plant.graph()))
+
+
+def test_a_gauge_between_two_devices_is_screwed_into_the_nearer_one():
+    plant = line_with_valve().add(gauge_mesh((0.589, -0.0505, 0), up=(0, -1, 0), side=(0, 0, 1)), GAUGE, "gauge")
+    plant.add(block((0.589, -0.25, 0), (0.3, 0.222, 0.2)), PUMP, "pump casing")
+    plant.pipe((0.589, -0.361, 0), (0.589, -1, 0))
+    assert [pair for pair in links(plant.graph()) if "G-001" in pair] == [("G-001", "P-001")]
+
+
+@pytest.mark.parametrize("group", [TANK, "Structural element"])
+def test_a_gauge_may_but_lean_on_a_tank(group):
+    plant = Plant().add(block((0, 0, 0), 1.0), group, "tank" if group == TANK else "wall")
+    plant.add(gauge_mesh((0.5, 0, 0), up=X, side=(0, 0, 1)), GAUGE, "gauge")
+    plant.pipe((0, 0, 0.5), (0, 0, 1.5))
+    assert not any("G-001" in pair for pair in links(plant.graph()))
+
+
+@pytest.mark.parametrize(("name", "joined"), [("valve body", True), ("lever", False)])
+def test_what_moves_a_valve_is_flanged_to_nothing(name, joined):
+    plant = line_with_valve()
+    plant.add(turned(shapes.cylinder(0.03, 0.1), (0.589, -0.099, 0), (0, 1, 0)), VALVE, name)
+    plant.add(turned(shapes.cylinder(0.03, 0.3), (0.589, -0.299, 0), (0, 1, 0)), PUMP, "pump casing")
+    assert (("P-001", "V-001") in links(plant.graph())) is joined
+
+
+@pytest.mark.parametrize(("into", "joined"), [(0.0, True), (0.01, True), (0.06, False)])
+def test_units_that_run_into_each_other_by_part_of_their_width_are_joined(into, joined):
+    plant = Plant().add(block((0, 0, 0), 0.6), TANK, "tank")
+    plant.add(turned(shapes.cylinder(0.0135, 0.1), (0.35, 0, 0), X), TANK, "nozzle")
+    flange = turned(shapes.cylinder(0.035, 0.012), (0.406 - into, 0, 0), X)
+    plant.add(merged(flange, turned(shapes.cylinder(0.009, 0.188), (0.506 - into, 0, 0), X)), VALVE, "valve")
+    plant.pipe((0.6 - into, 0, 0), (1.5, 0, 0))
+    assert (("T-001", "V-001") in links(plant.graph())) is joined
