@@ -40,40 +40,47 @@ def meet_directly(piping: Piping, units: Sequence[UnitParts]) -> dict[tuple[int,
 def _between(piping: Piping, units: Sequence[UnitParts]) -> list[tuple[int, int]]:
     """Pairs of solids in contact that are not of one unit. What moves a valve joins nothing that it leans on."""
     names = piping.roles.names
-    moved = {
-        part
-        for unit in units
-        for part in unit.parts
-        if names[part] in OPERATORS and any(names[other] not in OPERATORS for other in unit.parts)
-    }
+    moved = {part for unit in units for part in _operators(unit.parts, names)}
     owner = {part: -1 - part for part in piping.lineless} | owners_of(units)
     owner = {part: own for part, own in owner.items() if part not in moved}
     return [(a, b) for a, b in piping.given.contacts.plain_pairs if a in owner and b in owner and owner[a] != owner[b]]
+
+
+def _operators(parts: Sequence[int], names: Sequence[str | None]) -> list[int]:
+    """Those parts of a valve that move it; none where it has no others."""
+    found = [part for part in parts if names[part] in OPERATORS]
+    return found if len(found) < len(parts) else []
 
 
 def _screwed(
     piping: Piping, units: Sequence[UnitParts], pairs: Collection[tuple[int, int]], joined: Collection[tuple[int, int]]
 ) -> dict[tuple[int, int], Meeting]:
     """For each gauge that neither a line nor a flange holds the device that it touches, the nearest of several."""
-    contacts, owner = piping.given.contacts, owners_of(units)
-    held = {owner.get(part) for pair in joined for part in pair} | {owner.get(part) for part in piping.mounted}
-    held |= set(gauge_sides(piping.joints, units, piping.lines))
-    wanted = set(pairs)
+    free, owner = _free_gauges(piping, units, joined), owners_of(units)
+    bodies = {part for unit in units if unit.unit_type in _AT for part in unit.parts}
+    contacts, wanted = piping.given.contacts, set(filter(lambda pair: _is_on(pair, free, bodies), pairs))
+    near = np.flatnonzero(list(map(wanted.__contains__, contacts.plain_pairs))).tolist()
     best: dict[int, int] = {}
-    gaps = contacts.distance.tolist()
-    for row, (a, b) in enumerate(contacts.plain_pairs):
-        if (a, b) not in wanted or gaps[row] > _SCREWED:
-            continue
-        for gauge, other in ((owner.get(a), owner.get(b)), (owner.get(b), owner.get(a))):
-            if gauge is None or other is None or gauge in held or not _is_on(units[gauge], units[other]):
-                continue
-            if gauge not in best or gaps[row] < gaps[best[gauge]]:
-                best[gauge] = row
+    for gap, row in sorted(zip(contacts.distance[near].tolist(), near, strict=True)):
+        a, b = contacts.plain_pairs[row]
+        if gap <= _SCREWED:
+            best.setdefault(owner[a if a in free else b], row)
     return _meetings(piping, best)
 
 
-def _is_on(gauge: UnitParts, other: UnitParts) -> bool:
-    return gauge.unit_type == "gauge" and other.unit_type in _AT
+def _free_gauges(piping: Piping, units: Sequence[UnitParts], joined: Collection[tuple[int, int]]) -> set[int]:
+    """The parts of the gauges that neither a line nor a flange holds."""
+    owner = owners_of(units)
+    held = {owner.get(part) for pair in joined for part in pair} | {owner.get(part) for part in piping.mounted}
+    held |= set(gauge_sides(piping.joints, units, piping.lines))
+    gauges = [unit for number, unit in enumerate(units) if unit.unit_type == "gauge" and number not in held]
+    return {part for unit in gauges for part in unit.parts}
+
+
+def _is_on(pair: tuple[int, int], gauges: Collection[int], bodies: Collection[int]) -> bool:
+    """Whether two parts are one of some gauges and one of what they may sit on."""
+    a, b = pair
+    return (a in gauges and b in bodies) or (b in gauges and a in bodies)
 
 
 def _meetings(piping: Piping, rows: Mapping[int, int]) -> dict[tuple[int, int], Meeting]:

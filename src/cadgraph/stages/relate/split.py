@@ -142,18 +142,17 @@ def _cut_at_nipples(piping: Piping, group: Group, own: Mapping[int, Sequence[int
     Its devices touch beside that piece: a lever reaches to the next one. Each side must be a device without it: lead to
     another line, or be whole by itself.
     """
-    if group.unit_type not in _SPLIT:
-        return [group]
-    for rows in _straight_between(piping.joints, group, own):
-        bodies = [part for part in group.parts if not rows.isdisjoint(own.get(part, ()))]
-        sides = _divide(piping, group, bodies)
-        if all(
-            _is_complete(piping, body, own[body])
-            or any(row not in rows for part in side.parts for row in own.get(part, ()))
-            for body, side in zip(bodies, sides, strict=True)
-        ):
+    for rows in _straight_between(piping.joints, group, own) if group.unit_type in _SPLIT else ():
+        sides = _divide(piping, group, [part for part in group.parts if not rows.isdisjoint(own.get(part, ()))])
+        if all(_is_device(piping, side, own, rows) for side in sides):
             return [piece for side in sides for piece in _cut_at_nipples(piping, side, own)]
     return [group]
+
+
+def _is_device(piping: Piping, group: Group, own: Mapping[int, Sequence[int]], besides: frozenset[int]) -> bool:
+    """Whether parts lead to other lines than those of some ends, or hold a body at one of these that is whole."""
+    rows = {row: part for part in group.parts for row in own.get(part, ())}
+    return not besides.issuperset(rows) or any(_is_complete(piping, part, own[part]) for part in rows.values())
 
 
 def _straight_between(found: Attachments, group: Group, own: Mapping[int, Sequence[int]]) -> list[frozenset[int]]:
