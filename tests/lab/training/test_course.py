@@ -10,7 +10,7 @@ import pytest
 from cadgraph.labelers.embedded.model import STRANGE
 from cadlab.training.figure import Answers, error_of_families, least_confidence, score
 from cadlab.training.real import read_real_parts, read_real_plants, side_by_side
-from cadlab.training.samples import Sample, held_out_lessons, training_samples
+from cadlab.training.samples import LEFT_OUT, TRIED_FROM, Sample, held_out_lessons, training_samples
 from cadplants.presets.authoring_systems import SYSTEMS
 from cadplants.presets.preset import make
 from cadplants.presets.single_device import make_device
@@ -52,6 +52,15 @@ def test_lessons_know_every_system_and_trials_name_each():
     for name in SYSTEMS:
         assert {sample.system for sample in tried[f"system: {name}"]} == {name}
     assert not set(learnt) & {sample for some in tried.values() for sample in some}
+
+
+def test_a_second_draw_has_other_plants_and_none_of_the_systems_that_it_leaves_out():
+    first, second = training_samples(18, 4, 3), training_samples(18, 4, 3, 1)
+    assert not set(first) & set(second)
+    assert {sample.system for sample in second} == {*SYSTEMS, ""} - LEFT_OUT
+    # As many of each system as the first.
+    assert len(second) == len(first) - 2 * len(LEFT_OUT)
+    assert max(sample.seed for sample in second) < TRIED_FROM
 
 
 @pytest.fixture(scope="module")

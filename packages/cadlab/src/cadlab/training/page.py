@@ -12,6 +12,7 @@ from cadlab.markdown import table
 from cadlab.training.course import ALONE, PRECISION, SURE, Trials
 from cadlab.training.figure import Answers, Scores, answer, error_of_families, score
 from cadlab.training.real import RealPart
+from cadlab.training.samples import LEFT_OUT
 
 __all__ = ["write_page"]
 
@@ -56,9 +57,10 @@ package ({size:.1f} MB of plain arrays, nothing that could run); numpy alone run
 
 The generated plants are drawn from {families} families of devices in the manners of {n_systems} authoring systems
 ({systems}), each with its own
-granularity, level of detail, gaps, tessellation and omissions, drawn anew for each plant. Things that belong to no
-plant, in {others} scenes by themselves and among the parts of every sixth plant, teach the networks what they don't
-know.
+granularity, level of detail, gaps, tessellation and omissions, drawn anew for each plant. The networks take turns at
+{draws} draws of plants; all draws but the first are without {left_out}: networks that learnt from other plants
+err in other places, so that their mean is better than that of as many from one draw. Things that belong to no plant,
+in {others} scenes by themselves and among the parts of every sixth plant, teach the networks what they don't know.
 
 ## How good it is
 
@@ -96,7 +98,8 @@ By held-out system:
 {by_system}
 
 Published styles, of which nothing was seen in training, in layouts that were not seen either, and the same plants with
-defects of modelling and what others leave out (every network has seen other plants of all systems here):
+defects of modelling and what others leave out (these are the networks of the model, that have seen other plants of the
+systems):
 
 {styles}
 
@@ -193,6 +196,7 @@ def write_page(trials: Trials, parts: Sequence[RealPart], size: int, families: i
         size=size / 1e6, forms=len(FORMS), sizes=len(SIZES), sides=len(SIDE_FEATURES), places=len(PLACE_FEATURES),
         threshold=least, alone=alone, sure=model.sure, alone_precision=ALONE, precision=PRECISION,
         sure_precision=SURE, families=families,
+        draws=model.card["draws"], left_out=", ".join(sorted(LEFT_OUT)),
         others=model.card["scenes of others"], n_systems=len(model.card["systems"]),
         systems=", ".join(model.card["systems"]), folds=model.card["folds"],
         rounds=_WORDS[model.members[0].rounds],
