@@ -3,7 +3,7 @@
 import pytest
 
 import shapes
-from piping import PIPE, VALVE, pipe, ring, turned
+from piping import GAUGE, PIPE, VALVE, pipe, ring, turned
 from sketch import Sketch, X, block
 
 
@@ -51,6 +51,20 @@ def test_the_motor_of_a_compressor_is_no_pump():
 
 def test_a_motor_at_what_needs_none_stays_that_of_a_pump():
     assert ("equipment", (0,)) in driven_by_a_motor("Equipment", "filter")
+
+
+@pytest.mark.parametrize(("source", "beside", "taken"), [
+    ("geometry", False, True), ("author", False, False), ("geometry", True, False),
+])  # fmt: skip
+def test_a_disc_that_touches_but_a_gauge_is_its_dial(source, beside, taken):
+    sketch = Sketch()
+    sketch.pipe((-1, 0, 0), (0, 0, 0))
+    sketch.add(turned(shapes.cylinder(0.05, 0.06), (0.03, 0, 0), X), GAUGE, "gauge case")
+    sketch.add(turned(shapes.cylinder(0.06, 0.01), (0.065, 0, 0), X), PIPE, "flange", source=source, sure=0.7)
+    if beside:
+        sketch.pipe((0.07, 0, 0), (1, 0, 0))
+    [unit] = sketch.connected().network.units
+    assert (unit.unit_type, 2 in unit.parts) == ("gauge", taken)
 
 
 def sandwiched(*, disc, label=None):

@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 from cadgraph.geometry.components import connected_sets
 from cadgraph.model.vocabulary import FASTENERS
 from cadgraph.stages.relate.enclosed import holds_disc
+from cadgraph.stages.relate.line import is_disc
 from cadgraph.stages.relate.piping import Group, Piping, RelateInput
 from cadgraph.stages.relate.role import Roles
 
@@ -164,11 +165,11 @@ def _join_pieces(work: _Work, piping: Piping) -> bool:
 def _takers(work: _Work, piece: int, piping: Piping) -> list[int]:
     """The groups that a piece in between makes one, the one that stays first; none where it belongs to none.
 
-    Such a piece is a fastener all of whose neighbours are one unit, the body around the disc of a valve, or it joins
-    groups of which one at most is on a line.
+    Such a piece is a fastener all of whose neighbours are one unit, or a disc all of whose are one gauge, the body
+    around the disc of a valve, or it joins groups of which one at most is on a line.
     """
     touched = _touched(work, piping.given.neighbors[piece])
-    clamped = _is_clamped(work, piece, piping)
+    clamped = _is_clamped(work, piece, piping) or _is_dial(work, piece, piping)
     for unit_type in sorted({work.types[k] for k in touched}):
         same = _of_types(work, touched, (unit_type,))
         standing = [k for k in same if _stands(work.parts[k], piping.mounted, piece)]
@@ -192,15 +193,31 @@ def _touched(work: _Work, near: Sequence[int]) -> list[int]:
 
 def _may_hold(work: _Work, piece: int, groups: Sequence[int], piping: Piping) -> bool:
     """Whether a piece may be one of groups that are on no line: a nipple between two valves is none of theirs, but what
-    holds a mere operator is.
+    holds a mere operator is, and the dial of a gauge is no line.
     """
-    return piece not in piping.lines or all(_is_operator(work.parts[k], piping.roles.names) for k in groups)
+    if piece not in piping.lines or _is_dial(work, piece, piping):
+        return True
+    return all(_is_operator(work.parts[k], piping.roles.names) for k in groups)
+
+
+def _is_dial(work: _Work, piece: int, piping: Piping) -> bool:
+    """Whether a piece is a disc that the labeler took for a flange or the like, and touches but one gauge."""
+    label = piping.given.labels[piece]
+    if piece not in piping.lines or not is_disc(piping.lines[piece]) or label is None or label.source != "geometry":
+        return False
+    touched = _touched(work, piping.given.neighbors[piece])
+    return _is_held_by_one(work, piece, piping) and work.types[touched[0]] == "gauge"
 
 
 def _is_clamped(work: _Work, piece: int, piping: Piping) -> bool:
     """Whether a piece is a fastener all of whose neighbours are one group."""
+    return piping.roles.names[piece] in _FASTENERS and _is_held_by_one(work, piece, piping)
+
+
+def _is_held_by_one(work: _Work, piece: int, piping: Piping) -> bool:
+    """Whether all neighbours of a piece are one group."""
     holders = {work.of_part.get(other, -1) for other in piping.given.neighbors[piece]}
-    return piping.roles.names[piece] in _FASTENERS and len(holders) == 1 and -1 not in holders
+    return len(holders) == 1 and -1 not in holders
 
 
 def _join_odd(work: _Work, piping: Piping) -> bool:
