@@ -11,7 +11,7 @@
 # make check  style, types, structure, complexity, generated documents
 # make bench  the benchmarks, with what a user would pick instead in the same run
 # make fuzz   spoilt files of every kind, read or refused in one line? ten thousand, or make fuzz SECONDS=60 SEED=1
-# make train  the embedded labeler anew, with its page of figures (an hour or more on two cores; needs torch)
+# make train  the embedded labeler anew, with its page of figures (one and a half hours on two cores; needs torch)
 # make docs   write the generated documents anew
 # make gallery  the pictures of all generated devices in docs/devices (five minutes on two cores)
 
