@@ -263,7 +263,8 @@ def test_every_part_has_its_five_likeliest_names(riser):
     for answer in answers:
         chances = [guess.confidence for guess in answer.guesses]
         assert chances == sorted(chances, reverse=True)
-        assert len(chances) == 5 or sum(chances) > 0.99
+        # Names below 0.0005 are left out, of five or of all others.
+        assert len(chances) == 5 or sum(chances) > 1 - 0.0005 * len(default_model().classes)
 
 
 def test_the_model_in_the_package_is_small_and_knows_the_vocabulary():
