@@ -151,21 +151,25 @@ class Piping:
     open: tuple[Joint, ...] = ()
 
     @cached_property
+    def solids(self) -> frozenset[int]:
+        """What lines may end at: parts of units, and connectors without a line."""
+        return self.members.union(self.lineless)
+
+    @cached_property
     def joints(self) -> Attachments:
         """What every end of a line joins; it follows from the lines and from what they may end at."""
         given = self.given
-        solids = self.members.union(self.lineless)
         found = attach_lines(
             given.parts,
             given.contacts,
             self.lines,
-            solids,
+            self.solids,
             self.feet,
             given.config.relate.bridge,
             self.bolted,
             given.stated,
         )
-        return edit_joints(found, given.edits, given.parts, self.lines, solids)
+        return edit_joints(found, given.edits, given.parts, self.lines, self.solids)
 
     @cached_property
     def bolted(self) -> frozenset[tuple[int, int]]:

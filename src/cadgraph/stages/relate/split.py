@@ -178,8 +178,8 @@ def _beyond(piping: Piping, group: Group) -> list[tuple[int, int]]:
     """The parts of a group and those of other units, or fittings without a line, that are near each other, its own
     first.
     """
-    near, members, inside = piping.given.neighbors, piping.members.union(piping.lineless), set(group.parts)
-    return [(a, b) for a in group.parts for b in near.get(a, ()) if b in members and b not in inside]
+    near, inside = piping.given.neighbors, set(group.parts)
+    return [(a, b) for a in group.parts for b in near.get(a, ()) if b in piping.solids and b not in inside]
 
 
 def _holders(
