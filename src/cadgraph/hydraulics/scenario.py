@@ -22,6 +22,7 @@ from cadgraph.hydraulics.settings import (
     ValveDuty,
     ValveSetting,
 )
+from cadgraph.model.derived import kept_with
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Part, Terminal, Unit
 from cadgraph.query.duty import duty_of, suspect_of
@@ -396,6 +397,7 @@ def guess_end(network: Network, place: str, role: EndRole, reason: str = "given"
 # Tanks and gauges
 
 
+@kept_with
 def tanks_of_gauges(network: Network) -> dict[str, str]:
     """The tank that each gauge hangs at, by tags: with nothing but valves and gauges between.
 

@@ -144,14 +144,7 @@ def explain_connection(graph: SceneGraph | Network, start: str, end: str) -> Con
         start=network.name(first),
         end=network.name(last),
         recorded=bool(network.graph.joints()),
-        mounted=next(
-            (
-                (network.name(one), network.name(other))
-                for one, other in ((first, last), (last, first))
-                if other in network.mounted_at(one)
-            ),
-            None,
-        ),
+        mounted=_mounted(network, first, last) or _mounted(network, last, first),
     )
     search = _Search(network)
     distances, ways = network.shortest(first, network.follower(None))
@@ -166,6 +159,11 @@ def explain_connection(graph: SceneGraph | Network, start: str, end: str) -> Con
         joints=joints,
         unnamed=unnamed,
     )
+
+
+def _mounted(network: Network, one: str, other: str) -> tuple[str, str] | None:
+    """The tags of both if the first has no line and is mounted at the other."""
+    return (network.name(one), network.name(other)) if other in network.mounted_at(one) else None
 
 
 class _Search:

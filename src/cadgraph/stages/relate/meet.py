@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Sequence
 
 import numpy as np
 
@@ -57,15 +57,23 @@ def _screwed(
 ) -> dict[tuple[int, int], Meeting]:
     """For each gauge that neither a line nor a flange holds the device that it touches, the nearest of several."""
     free, owner = _free_gauges(piping, units, joined), owners_of(units)
-    bodies = {part for unit in units if unit.unit_type in _AT for part in unit.parts}
-    contacts, wanted = piping.given.contacts, set(filter(lambda pair: _is_on(pair, free, bodies), pairs))
-    near = np.flatnonzero(list(map(wanted.__contains__, contacts.plain_pairs))).tolist()
     best: dict[int, int] = {}
-    for gap, row in sorted(zip(contacts.distance[near].tolist(), near, strict=True)):
-        a, b = contacts.plain_pairs[row]
-        if gap <= _SCREWED:
-            best.setdefault(owner[a if a in free else b], row)
-    return _meetings(piping, best)
+    for row in _rows_at_devices(piping, units, pairs, free):
+        a, b = piping.given.contacts.plain_pairs[row]
+        best.setdefault(owner[a if a in free else b], row)
+    return _meetings(piping, sorted(best.values()))
+
+
+def _rows_at_devices(
+    piping: Piping, units: Sequence[UnitParts], pairs: Collection[tuple[int, int]], gauges: Collection[int]
+) -> list[int]:
+    """The contacts of parts of gauges with devices that these may be screwed into, the nearest first."""
+    contacts = piping.given.contacts
+    bodies = {part for unit in units if unit.unit_type in _AT for part in unit.parts}
+    wanted = {pair for pair in pairs if _is_on(pair, gauges, bodies)}
+    gaps = contacts.distance.tolist()
+    rows = [row for row, pair in enumerate(contacts.plain_pairs) if pair in wanted and gaps[row] <= _SCREWED]
+    return sorted(rows, key=lambda row: (gaps[row], row))
 
 
 def _free_gauges(piping: Piping, units: Sequence[UnitParts], joined: Collection[tuple[int, int]]) -> set[int]:
@@ -83,16 +91,14 @@ def _is_on(pair: tuple[int, int], gauges: Collection[int], bodies: Collection[in
     return (a in gauges and b in bodies) or (b in gauges and a in bodies)
 
 
-def _meetings(piping: Piping, rows: Mapping[int, int]) -> dict[tuple[int, int], Meeting]:
-    """What some contacts come to, each as where its middle is."""
+def _meetings(piping: Piping, rows: Sequence[int]) -> dict[tuple[int, int], Meeting]:
+    """What some contacts of gauges come to, each where its middle is."""
     if not rows:
         return {}
-    given, index = piping.given, np.array(sorted(set(rows.values())), np.int64)
-    regions = regions_of(given.parts, given.contacts, index, given.config.cluster.eps)
-    why = "no line ends at the gauge, and it touches this"
+    given = piping.given
+    regions = regions_of(given.parts, given.contacts, np.array(rows, np.int64), given.config.cluster.eps)
+    gaps, why = given.contacts.distance, "no line ends at the gauge, and it touches this"
     return {
-        given.contacts.plain_pairs[row]: Meeting(
-            regions.centroid[k], float(given.contacts.distance[row]), SIDE_SCORE, why
-        )
-        for k, row in enumerate(index.tolist())
+        given.contacts.plain_pairs[row]: Meeting(regions.centroid[k], float(gaps[row]), SIDE_SCORE, why)
+        for k, row in enumerate(rows)
     }

@@ -155,7 +155,7 @@ def _behind(piping: Piping, beliefs: Beliefs, body: Body, ends: Ends, row: int) 
     """
     flanged = set(_flanged_to(piping, body, ends, row))
     # A gauge is screwed into its root valve, which is no flange.
-    met = (flanged or {"gauge"}) if _touched(piping, body, "gauge") else flanged
+    met = flanged or {group.unit_type for group in _touched(piping, body, "gauge")}
     if len(met) != 1:
         return None, 0.0
     (behind,) = met

@@ -160,12 +160,12 @@ def _straight_between(found: Attachments, group: Group, own: Mapping[int, Sequen
     ends = found.ends
     at = {row: part for part in group.parts for row in own.get(part, ())}
     pairs = [
-        frozenset((row, other))
+        (row, other)
         for row in at
         for other in ends.of_part[int(ends.part[row])]
         if row < other and other in at and at[other] != at[row]
     ]
-    return [pair for pair in pairs if float(np.prod(ends.direction[sorted(pair)], axis=0).sum()) <= -_STRAIGHT]
+    return [frozenset(pair) for pair in pairs if np.dot(*ends.direction[list(pair)]) <= -_STRAIGHT]
 
 
 def _pairs_within(parts: Sequence[int], near: Mapping[int, Sequence[int]]) -> list[tuple[int, int]]:

@@ -169,7 +169,9 @@ def _takers(work: _Work, piece: int, piping: Piping) -> list[int]:
     around the disc of a valve, or it joins groups of which one at most is on a line.
     """
     touched = _touched(work, piping.given.neighbors[piece])
-    clamped = _is_clamped(work, piece, piping) or _is_dial(work, piece, piping)
+    if _is_dial(work, piece, piping):
+        return touched
+    clamped = _is_clamped(work, piece, piping)
     for unit_type in sorted({work.types[k] for k in touched}):
         same = _of_types(work, touched, (unit_type,))
         standing = [k for k in same if _stands(work.parts[k], piping.mounted, piece)]
@@ -193,11 +195,9 @@ def _touched(work: _Work, near: Sequence[int]) -> list[int]:
 
 def _may_hold(work: _Work, piece: int, groups: Sequence[int], piping: Piping) -> bool:
     """Whether a piece may be one of groups that are on no line: a nipple between two valves is none of theirs, but what
-    holds a mere operator is, and the dial of a gauge is no line.
+    holds a mere operator is.
     """
-    if piece not in piping.lines or _is_dial(work, piece, piping):
-        return True
-    return all(_is_operator(work.parts[k], piping.roles.names) for k in groups)
+    return piece not in piping.lines or all(_is_operator(work.parts[k], piping.roles.names) for k in groups)
 
 
 def _is_dial(work: _Work, piece: int, piping: Piping) -> bool:
