@@ -71,7 +71,7 @@ def test_what_people_named_is_no_body(source):
     assert bodies(around(0.24, "aligned", group=STEEL, name="plate", source=source)) == []
 
 
-@pytest.mark.parametrize(("sure", "found"), [(0.79, 1), (0.81, 0)])
+@pytest.mark.parametrize(("sure", "found"), [(0.89, 1), (0.91, 0)])
 def test_a_small_unit_may_be_another_one_where_the_labeler_is_not_sure(sure, found):
     assert len(bodies(around(0.24, "aligned", group=VALVE, name="valve", sure=sure))) == found
 

@@ -59,8 +59,8 @@ SIZES = {
     "valve": ("aligned", 4.0, 20.0, 0.1),
     "gauge": ("one", 4.0, 1.0, 0.02),
     "pump": ("square", 8.0, 2.5, 0.05),
-    "tank": ("many", 12.0, 4.0, 0.3),
-    "equipment": ("two", 12.0, 3.5, 0.3),
+    "tank": ("many", 12.0, 3.5, 0.3),
+    "equipment": ("two", 12.0, 3.0, 0.3),
     FITTING: ("aligned", 2.0, 8.0, 0.9),
 }
 
@@ -229,3 +229,9 @@ def test_what_a_motor_without_a_pump_stands_at_is_one(name, kind):
     sketch = around((0.24, 0.3, 0.24), "aligned", likely=said)
     sketch.add(block((0, 0.3, 0), 0.3), PUMP, name, likely={(PUMP, name): 0.9})
     assert found(sketch) == kind
+
+
+@pytest.mark.parametrize(("valve", "fitting", "kind"), [(0.06, 0.87, None), (0.3, 0.5, "valve")])
+def test_what_is_surely_a_fitting_is_no_valve_by_its_length(valve, fitting, kind):
+    likely = {NAMES["valve"]: valve, (PIPE, "strainer"): fitting}
+    assert recovered("valve", "aligned", 3.3, valve, likely=likely) == kind

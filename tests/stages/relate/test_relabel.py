@@ -85,6 +85,17 @@ def test_a_piece_that_was_found_beside_others_is_called_by_what_is_likeliest():
     assert name({(VALVE, "valve body"): 0.1, (VALVE, "valve"): 0.09, (VALVE, "lever"): 0.08}) is None
 
 
+@pytest.mark.parametrize(("likely", "name"), [(False, "gasket"), (True, None)])
+def test_what_surely_is_a_gasket_stays_one_within_a_unit(likely, name):
+    given = around(0.24, "aligned", group=VALVE, name="valve body")
+    number = given.add(block((0, 0.13, 0), (0.2, 0.02, 0.2)), PIPE, "gasket")
+    given.add(block((0, 0.2, 0), (0.2, 0.12, 0.2)), VALVE, "valve bonnet")
+    given.labels[number] = given.labels[number].model_copy(update={"likely": likely})
+    connected = given.connected()
+    assert any(number in unit.parts for unit in connected.network.units)
+    assert connected.labels[number].name == name
+
+
 def test_the_confidence_of_what_was_found_is_that_of_finding_it():
     likely, sure = {(VALVE, "valve"): 0.1}, 0.906991
     assert around(0.24, "aligned", likely=likely).connected().labels[0].confidence == pytest.approx(sure, abs=1e-6)

@@ -40,9 +40,9 @@ class Model:
     """What the embedded labeler has learnt.
 
     Args:
-        members: networks whose answers are averaged.
+        members: networks whose scores are averaged.
         classes: ``group/name``, and ``STRANGE``.
-        temperature: the scores are divided by it, so that confidence means frequency.
+        temperature: the mean scores are divided by it, so that confidence means frequency.
         threshold: least confidence of a label of a part that touches others.
         alone: of one that touches nothing: most things that stand by themselves belong to no plant.
         sure: least confidence of a label that is called sure.
@@ -58,15 +58,19 @@ class Model:
     card: Mapping[str, Any] = field(default_factory=dict)
 
     def probabilities(self, seen: Observation) -> Floats:
-        """The probability of each class for each part, ``(n_parts, n_classes)``."""
+        """The probability of each class for each part, ``(n_parts, n_classes)``.
+
+        The networks' probabilities are averaged as logarithms: their mean is as sure as each of them is by itself, which
+        is what the temperature was found for, where that of the probabilities themselves is less sure than it may be.
+        """
         around = seen.surroundings
         rounds = max((member.rounds for member in self.members), default=0)
         alike = find_alike(inputs_of(seen), around.sides, around.here, around.there, rounds)
         total: Floats = np.zeros((alike.n_kinds, len(self.classes)))
         for member in self.members:
             scores = member.answers(member.hidden(alike.inputs), alike.talks[: member.rounds])
-            total += softmax(scores / self.temperature)[alike.among_last(member.rounds)]
-        return (total / max(len(self.members), 1))[alike.kinds[-1]]
+            total += scores[alike.among_last(member.rounds)]
+        return softmax(total / (max(len(self.members), 1) * self.temperature))[alike.kinds[-1]]
 
     def kinship(self, seen: Observation) -> Floats:
         """A point for each part, ``(n_parts, width)`` of length 1: parts of one kind lie close, known or not.

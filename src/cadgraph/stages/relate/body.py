@@ -25,7 +25,7 @@ _LIKELY_OTHER = 0.5  # above this probability a part is of steelwork, a support 
 _MOST = 40  # parts of a device that labels missed
 _LID = 4.0  # radii that a bonnet or a cover is long at most
 # A unit of so few parts, none of which the labeler finds likelier than this to be such a piece, may be another one.
-_FEW, _UNSURE = 3, 0.8
+_FEW, _UNSURE = 3, 0.9
 
 Arrangement = Literal["one", "aligned", "square", "two", "many"]
 

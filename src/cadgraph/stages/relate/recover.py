@@ -52,7 +52,7 @@ of pipe. It adds to a fitting, and is taken from everything else."""
 LID = 12.0
 """What it adds to a fitting that all there is at the end of a line is a disc as wide as that end: a lid on a flange."""
 
-LABELLED = Curve((-7.0, -2.3, 0.0), (-3.3, 0.0, 1.6), "labelled so by {:.1f} (logarithm)")
+LABELLED = Curve((-7.0, -2.3, 0.0), (-3.3, 0.0, 2.3), "labelled so by {:.1f} (logarithm)")
 """The logarithm of the labeler's mean probability of a type: it is often wrong about shapes that it hasn't learnt."""
 
 _ENDS: Mapping[str, str] = {

@@ -19,12 +19,13 @@ USERS = frozenset({"human", "repeat", "catalog"})
 corrected, and catalogues."""
 
 # A second opinion counts from this confidence on.
-_CONFIDENT = 0.55
-# What the labeler alone says of a group counts from even odds on; below, what lies around the part decides.
-_LIKELY = 0.5
+_CONFIDENT = 0.63
+# What the labeler alone says of a group counts from here on; below, what lies around the part decides.
+_LIKELY = 0.57
 # A label whose group it gives at least this probability stands. By Bayes' rule: where a fifth of the labels are wrong
-# at random over nine groups, a label is right at even odds if the second opinion gives its group a 32nd of its own.
-_POSSIBLE = 0.03
+# at random over nine groups, a label is right at even odds if the second opinion gives its group a 32nd of its own. Ours
+# is below that: what the labeler gets wrong it is often sure of.
+_POSSIBLE = 0.02
 # Labels that disagree with the second opinion each in their own way are strays; above this share of the parts, and from
 # this number on, labels are taken for doubtful. Ours: true labels give below 1 % (what the labeler always gets wrong
 # is one way), 20 % at random give 15 to 20 %.
@@ -82,7 +83,7 @@ def _said(label: Label | None) -> tuple[str | None, str | None]:
 
 
 def _followed(label: Label | None, guess: Label | None) -> tuple[str | None, str | None]:
-    """The group and name that a label gives, unless only the labeler says so and holds its group for likelier wrong."""
+    """The group and name that a label gives, unless only the labeler says so and isn't sure enough."""
     if label is None or label is not guess:
         return _said(label)
     likely = max(_share(label, label.group), label.confidence)

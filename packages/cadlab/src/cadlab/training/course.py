@@ -75,7 +75,7 @@ class Course:
         drawn: in styles drawn at random.
         others: scenes of shapes that belong to no plant, and as many of rare things; two thirds as many of loose
             fasteners.
-        members: networks whose answers are averaged.
+        members: networks whose scores are averaged.
         draws: of plants among which the members take turns; the folds learn from the first.
         folds: each holds out some of the authoring systems, of the families of devices and of the makers of real parts.
         seeds: plants of each kind that the networks are tried on.
@@ -173,7 +173,7 @@ def run_course(
     def asked(value: float, which: str) -> Answers:
         return joined(*(getattr(trial, which)(classes, value) for trial in trials))
 
-    best = temperature(lambda value: joined(asked(value, "families"), asked(value, "makers")))
+    best = temperature(lambda value: asked(value, "systems"))
     systems, families, makers = (asked(best, which) for which in ("systems", "families", "makers"))
     least, alone, sure = _thresholds(families, makers)
     without = [(name, replace(trials[0], network=network)) for name, network in zip(lacking, others, strict=True)]

@@ -118,10 +118,8 @@ def answer(
     for original in examples:
         e = change(original)
         inputs = np.hstack([e.forms[e.shape], e.sizes[e.shape], e.places]).astype(np.float64)
-        p = np.zeros((len(inputs), len(classes)))
-        for member in model.members:
-            p += softmax(member.scores(inputs, e.sides.astype(np.float64), e.here, e.there) / model.temperature)
-        p /= len(model.members)
+        scores = sum(member.scores(inputs, e.sides.astype(np.float64), e.here, e.there) for member in model.members)
+        p = softmax(scores / (len(model.members) * model.temperature))
         p = spread(p, e.shape) if repeats else p
         told = p.copy()
         told[:, classes == STRANGE] = 0.0  # never an answer, but it takes its share of the confidence

@@ -49,11 +49,13 @@ package ({size:.1f} MB of plain arrays, nothing that could run); numpy alone run
    the whole scene is like (are there fasteners, are its joints open, are its pipes hollow).
 3. **{rounds} rounds of talk** between neighbours in the contact graph: a thin ring between flanges becomes a gasket.
 4. **Repeats** of a shape agree among themselves, as far as they agree already.
-5. **Confidence** is calibrated on what is new in every way. A part whose name or group is likelier than {threshold:.2f}
-   gets a label, one that touches nothing from {alone:.2f} on: most things that stand by themselves belong to no plant.
-   A label below {sure:.2f} is marked as *likely* in the graph and the report, not sure. Others stay open. The five
-   likeliest names of every part stand in the graph, with their probabilities, and the functional relations use all of
-   them whatever the thresholds. `cadgraph explain FOLDER PART` says why.
+5. **Confidence** is calibrated on whole plants of held-out systems, a quarter of whose families is new, too; the
+   networks' logarithms of probabilities are averaged, so that what was found for one holds for all. A part whose name
+   or group is likelier than {threshold:.2f} gets a label, one that touches nothing from {alone:.2f} on: most things
+   that stand by themselves belong to no plant. A label below {sure:.2f} is marked as *likely* in the graph and the
+   report, not sure. Others stay open. The five likeliest names of every part stand in the graph, with their
+   probabilities, and the functional relations use all of them whatever the thresholds. `cadgraph explain FOLDER PART`
+   says why.
 
 The generated plants are drawn from {families} families of devices in the manners of {n_systems} authoring systems
 ({systems}), each with its own
