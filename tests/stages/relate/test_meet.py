@@ -3,8 +3,9 @@
 import pytest
 
 import shapes
+from cadgraph.stages.relate.attach import flat_contacts
 from piping import GAUGE, PUMP, TANK, VALVE, Plant, gauge_mesh, links, merged, turned, valve_mesh
-from sketch import X, block
+from sketch import UP, Sketch, X, block
 
 
 def line_with_valve():
@@ -62,3 +63,13 @@ def test_units_that_run_into_each_other_by_part_of_their_width_are_joined(into, 
     plant.add(merged(flange, turned(shapes.cylinder(0.009, 0.188), (0.506 - into, 0, 0), X)), VALVE, "valve")
     plant.pipe((0.6 - into, 0, 0), (1.5, 0, 0))
     assert (("T-001", "V-001") in links(plant.graph())) is joined
+
+
+@pytest.mark.parametrize("stub", [0.006, 0.015, 0.04])
+def test_small_stubs_are_flanged_to_each_other_as_wide_ones_are(stub):
+    sketch = Sketch()
+    sketch.add(merged(block((0, 0, 0), (0.1, 0.1, 0.06)), turned(shapes.cylinder(stub, 0.03), (0, 0, 0.045), UP)))
+    sketch.add(merged(*(turned(shapes.cylinder(*size), (0, 0, z), UP) for size, z in (
+        ((stub, 0.01), 0.065), ((2 * stub, 0.2), 0.17)))))  # fmt: skip
+    given = sketch.given()
+    assert list(flat_contacts(given.parts, given.contacts, [(0, 1)], given.config.cluster.eps)) == [(0, 1)]

@@ -3,7 +3,7 @@
 import pytest
 
 import shapes
-from piping import PIPE, VALVE, Plant, links, ring, tags, turned, valve_mesh
+from piping import GAUGE, PIPE, VALVE, Plant, gauge_mesh, links, ring, tags, turned, valve_mesh
 from sketch import UP, X, block
 
 
@@ -46,3 +46,30 @@ def test_what_is_called_a_body_is_a_valve_by_itself_where_it_is_longer_than_wide
     plant.add(turned(shapes.cylinder(0.075, length), (0.203 + length / 2, 0, 0), X), VALVE, "valve body")
     plant.pipe((0.203 + length, 0, 0), (2, 0, 0))
     assert valves(plant) == n
+
+
+def test_a_needle_valve_that_a_lever_reaches_to_is_one_of_its_own():
+    plant = Plant().pipe((-1, 0, 0), (0, 0, 0)).pipe((0.18, 0, 0), (1.2, 0, 0))
+    for middle in (0.045, 0.135):
+        plant.add(turned(shapes.cylinder(0.06, 0.09), (middle, 0, 0), X), VALVE, "valve body")
+    plant.add(turned(shapes.cylinder(0.01, 0.08), (0.09, 0, 0.1), UP), VALVE, "valve stem")
+    plant.add(block((0.2575, 0, 0.135), (0.335, 0.02, 0.01)), VALVE, "lever")
+    plant.pipe((0.45, 0, 0), (0.45, 0, 0.1), radius=0.008, bore=0.005)
+    plant.add(block((0.45, 0, 0.135), (0.05, 0.05, 0.07)), VALVE, "valve body")
+    plant.add(turned(shapes.cylinder(0.006, 0.06), (0.45, 0.055, 0.135), (0, 1, 0)), VALVE, "valve stem")
+    plant.add(gauge_mesh((0.45, 0, 0.17)), GAUGE, "gauge")
+    graph = plant.graph()
+    assert len(graph.units()) == 3
+    assert ("G-001", "V-002") in links(graph)
+
+
+@pytest.mark.parametrize(("apart", "n"), [(0.066, 2), (0.0, 1)])
+def test_gauges_whose_cases_touch_are_as_many_as_have_a_stem_and_a_case(apart, n):
+    plant = Plant().pipe((-1, 0, 0), (0, 0, 0)).add(valve_mesh((0.089, 0, 0)), VALVE, "valve").pipe((0.178, 0, 0), X)
+    for x in (0.089 - apart / 2, 0.089 + apart / 2) if apart else (0.074, 0.104):
+        plant.add(turned(shapes.cylinder(0.008, 0.06), (x, -0.07, 0), (0, 1, 0)), GAUGE, "gauge stem")
+        if apart:
+            plant.add(turned(shapes.cylinder(0.03, 0.03), (x, -0.13, 0), UP), GAUGE, "gauge case")
+    if not apart:
+        plant.add(block((0.089, -0.13, 0), (0.1, 0.06, 0.03)), GAUGE, "gauge case")
+    assert sum(unit.unit_type == "gauge" for unit in plant.graph().units()) == n

@@ -97,3 +97,13 @@ def test_lugs_and_legs_without_a_vessel_are_no_tank(name, count):
     assert len(connected.network.units) == count
     told = [one.meshes for one in connected.diagnostics if one.code == "loose-fitting"]
     assert told == ([] if count else [("/m0",)])
+
+
+@pytest.mark.parametrize(("source", "n"), [("author", 2), (None, 1)])
+def test_two_vessels_in_a_bracket_are_two_where_somebody_says_that_it_is_one(source, n):
+    sketch = Sketch()
+    for x in (0.0, 1.4):
+        sketch.add(turned(shapes.cylinder(0.4, 2.0), (x, 0, 0), (0, 0, 1)), "Tank", "shell", source="author")
+    said = {"group": "Connection assembly", "name": "bracket", "source": source} if source else {}
+    sketch.add(block((0.7, 0, 0), (0.62, 0.1, 0.1)), **said)
+    assert sum(unit.unit_type == "tank" for unit in sketch.connected().network.units) == n

@@ -60,8 +60,8 @@ class Model:
     def probabilities(self, seen: Observation) -> Floats:
         """The probability of each class for each part, ``(n_parts, n_classes)``.
 
-        The networks' probabilities are averaged as logarithms: their mean is as sure as each of them is by itself, which
-        is what the temperature was found for, where that of the probabilities themselves is less sure than it may be.
+        The networks' probabilities are averaged as logarithms: that mean is as sure as each network is by itself, for
+        which the temperature was found; the mean of the probabilities themselves is less sure than it is right.
         """
         around = seen.surroundings
         rounds = max((member.rounds for member in self.members), default=0)

@@ -521,7 +521,7 @@ def flat_contacts(
         if (
             regions.flatness[k] >= _FACE_FLAT
             and high >= _FACE_ROUND * wide
-            and thin <= deep * wide + 0.002
+            and thin <= max(deep * wide + 0.002, 0.9 * eps)
             and wide >= _FACE_SHARE * size
         ):
             found[a, b] = regions.centroid[k], regions.normal[k]

@@ -64,8 +64,9 @@ def _relabel_unit(piping: Piping, beliefs: Beliefs, group: Group, labels: list[L
 
 
 def _is_strange(piping: Piping, label: Label | None, part: int, own: Sequence[str]) -> bool:
-    """Whether a part's label is that of a line or of another type of unit, or says nothing of a part that was found; what
-    surely is a gasket stays one.
+    """Whether a part's label is that of a line or of another type of unit, or says nothing of a part that was found.
+
+    What surely is a gasket stays one.
     """
     if label is not None and label.name == "gasket" and not label.likely:
         return False

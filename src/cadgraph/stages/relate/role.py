@@ -23,13 +23,14 @@ _CONFIDENT = 0.63
 # What the labeler alone says of a group counts from here on; below, what lies around the part decides.
 _LIKELY = 0.57
 # A label whose group it gives at least this probability stands. By Bayes' rule: where a fifth of the labels are wrong
-# at random over nine groups, a label is right at even odds if the second opinion gives its group a 32nd of its own. Ours
-# is below that: what the labeler gets wrong it is often sure of.
+# at random over nine groups, a label is right at even odds if the second opinion gives its group a 32nd of its own.
+# Ours is below that: what the labeler gets wrong it is often sure of.
 _POSSIBLE = 0.02
-# Labels that disagree with the second opinion each in their own way are strays; above this share of the parts, and from
-# this number on, labels are taken for doubtful. Ours: true labels give below 1 % (what the labeler always gets wrong
-# is one way), 20 % at random give 15 to 20 %.
-_STRAY_SHARE, _LEAST_STRAYS = 0.04, 3
+# Labels that disagree with what the labeler is sure of, each in its own way, are strays; above this share of the parts,
+# and from this number on, labels are taken for doubtful. Ours: in plants of others true labels give up to 3 % (what
+# the labeler always gets wrong is one way), 20 % at random give 15 to 20 %.
+_SURE = 0.87
+_STRAY_SHARE, _LEAST_STRAYS = 0.06, 3
 # What happens this often at most, as share of the parts, is a way of its own.
 _RARE = 0.002
 # Least share of the parts of one shape that must agree to outvote a label.
@@ -139,7 +140,7 @@ def _are_doubtful(labels: Sequence[Label | None], guessed: Sequence[Label | None
     both = [
         (label, guess)
         for label, guess in zip(labels, guessed, strict=True)
-        if label is not None and guess is not None and guess.confidence >= _CONFIDENT
+        if label is not None and guess is not None and guess.confidence >= _SURE
     ]
     ways = Counter((a.group, a.name, b.group) for a, b in both if a.group != b.group)
     rare = max(1.0, _RARE * len(both))

@@ -5,13 +5,15 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import combinations
 
 import numpy as np
 
 from cadgraph.model.parts import Parts
 from cadgraph.stages.relate.attach import Attachments, flat_contacts
+from cadgraph.stages.relate.body import arrangement_of
 from cadgraph.stages.relate.flanged import bodies_between
-from cadgraph.stages.relate.joint import extent_about
+from cadgraph.stages.relate.joint import Ends, extent_about
 from cadgraph.stages.relate.piping import Group, Piping
 
 __all__ = ["split_groups"]
@@ -24,6 +26,7 @@ _LOPSIDED = 1.5
 _WHOLE = 1.2
 _BODY = "valve body"
 _STRAIGHT = 0.99  # cosine between the directions of the two ends of a straight piece
+_CASES = frozenset({"gauge", "gauge case", "gauge face"})
 _SPLIT = frozenset({"valve", "pump", "gauge"})
 
 
@@ -46,11 +49,21 @@ def split_groups(piping: Piping, groups: Sequence[Group]) -> list[Group]:
 def _split(piping: Piping, group: Group, own: Mapping[int, Sequence[int]]) -> list[Group]:
     """The devices of a group, by its parts at which lines end: itself unless it may hold several, and does."""
     beyond = _beyond(piping, group)
+    stems = _stems(piping, group, beyond) if group.unit_type == "gauge" else []
+    if stems:
+        return _divide(piping, group, stems)
     if group.unit_type not in _SPLIT or not own or len(own.keys() | {a for a, _ in beyond}) < 2:
         return [group]
-    cores = _cores(piping, group, own, beyond)
-    found = _divide(piping, group, cores) if len(cores) > 1 else [group]
+    found = _by_cores(piping, group, own, _cores(piping, group, own, beyond))
     return [piece for some in found for piece in _cut_at_nipples(piping, some, own)]
+
+
+def _by_cores(piping: Piping, group: Group, own: Mapping[int, Sequence[int]], cores: Sequence[int]) -> Sequence[Group]:
+    """A group by the bodies in it that are devices of their own, one of which may have halves of another beside it."""
+    if len(cores) > 1:
+        return _divide(piping, group, cores)
+    halves = _halves_beside(piping, cores[0], own) if cores else ()
+    return _joined(_divide(piping, group, [*cores, *halves]), cores[0]) if halves else [group]
 
 
 @dataclass(frozen=True)
@@ -129,6 +142,41 @@ def _is_whole(piping: Piping, body: int, row: int) -> bool:
     name = piping.roles.names[body]
     may_be = name in (None, piping.given.vocabulary.groups[group].names[0]) or (name == _BODY and along >= 2 * reach)
     return may_be and along >= _WHOLE * 2 * float(ends.radius[row])
+
+
+def _halves_beside(piping: Piping, core: int, own: Mapping[int, Sequence[int]]) -> tuple[int, ...]:
+    """The two halves of a device that lines pass through beside the only core of a group, which has a line of its own:
+    its lever reaches to the needle valve that stands next to it.
+    """
+    ends, at = piping.joints.ends, own.get(core, ())
+    rows = [(part, row) for part, held in sorted(own.items()) for row in held if part != core]
+    for (part, row), (other, far) in combinations(rows, 2) if at else ():
+        passed = part != other and arrangement_of(ends, [row, far]) == "aligned"
+        if passed and not any(_heads_for(ends, row, mine) for mine in at):
+            return part, other
+    return ()
+
+
+def _heads_for(ends: Ends, row: int, other: int) -> bool:
+    """Whether an end lies on the axis of another one."""
+    between = ends.point[other] - ends.point[row]
+    across = between - (between @ ends.direction[row]) * ends.direction[row]
+    return float(np.linalg.norm(across)) <= float(ends.radius[row])
+
+
+def _joined(groups: Sequence[Group], apart: int) -> list[Group]:
+    """Groups, of which all but the one of a part are one."""
+    own = [group for group in groups if apart in group.parts]
+    rest = sorted(part for group in groups if apart not in group.parts for part in group.parts)
+    return [*own, replace(groups[0], parts=tuple(rest))]
+
+
+def _stems(piping: Piping, group: Group, beyond: Sequence[tuple[int, int]]) -> list[int]:
+    """The stems of gauges that stand so close that their cases touch: each has a case and is screwed in."""
+    names = piping.roles.names
+    stems = sorted({part for part, _ in beyond if names[part] == "gauge stem"})
+    pieces = _divide(piping, group, stems) if len(stems) > 1 else []
+    return stems if pieces and all(any(names[part] in _CASES for part in piece.parts) for piece in pieces) else []
 
 
 def _feet(group: Group, bodies: Collection[int], holders: Collection[int]) -> list[int]:

@@ -171,15 +171,29 @@ def _takers(work: _Work, piece: int, piping: Piping) -> list[int]:
     touched = _touched(work, piping.given.neighbors[piece])
     if _is_dial(work, piece, piping):
         return touched
-    clamped = _is_clamped(work, piece, piping)
     for unit_type in sorted({work.types[k] for k in touched}):
         same = _of_types(work, touched, (unit_type,))
         standing = [k for k in same if _stands(work.parts[k], piping.mounted, piece)]
         others = sorted(set(same).difference(standing))
-        joins = clamped or len(same) > 1 >= len(standing) or _is_body_of(work, piece, same, piping)
-        if joins and _may_hold(work, piece, others, piping):
+        between = len(same) > 1 >= len(standing) and _may_join(unit_type, piece, piping)
+        if (between or _is_piece_of(work, piece, same, piping)) and _may_hold(work, piece, others, piping):
             return standing + others
     return []
+
+
+def _is_piece_of(work: _Work, piece: int, groups: Sequence[int], piping: Piping) -> bool:
+    """Whether a piece is clamped to the groups of a type that it touches and to nothing else, or is their body."""
+    return _is_clamped(work, piece, piping) or _is_body_of(work, piece, groups, piping)
+
+
+def _may_join(unit_type: str, piece: int, piping: Piping) -> bool:
+    """Whether a piece may make one of two units of a type.
+
+    Two cylinders in a bracket are two tanks, where somebody else than the labeler says that it is one.
+    """
+    label = piping.given.labels[piece]
+    open_to_all = label is None or label.source == "geometry" or piping.roles.doubtful
+    return open_to_all or unit_type != "tank"
 
 
 def _is_body_of(work: _Work, piece: int, groups: Sequence[int], piping: Piping) -> bool:
