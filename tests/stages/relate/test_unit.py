@@ -107,3 +107,12 @@ def test_two_vessels_in_a_bracket_are_two_where_somebody_says_that_it_is_one(sou
     said = {"group": "Connection assembly", "name": "bracket", "source": source} if source else {}
     sketch.add(block((0.7, 0, 0), (0.62, 0.1, 0.1)), **said)
     assert sum(unit.unit_type == "tank" for unit in sketch.connected().network.units) == n
+
+
+@pytest.mark.parametrize(("size", "found"), [((0.08, 0.002, 0.08), True), ((0.08, 0.002, 0.04), False)])
+def test_a_dial_by_itself_is_a_gauge_where_it_is_as_wide_as_long_and_else_a_nameplate(size, found):
+    sketch = Sketch()
+    sketch.add(block((0, 0, 0), 0.3), "Pump unit", "pump", source="author")
+    sketch.pipe((0.15, 0, 0), (1, 0, 0), source="author")
+    sketch.add(block((0, 0.151, 0), size), GAUGE, "gauge face", sure=0.64)
+    assert any(unit.unit_type == "gauge" for unit in sketch.connected().network.units) is found

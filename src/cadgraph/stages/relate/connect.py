@@ -142,14 +142,14 @@ def _unjoined(piping: Piping, network: Network) -> list[Unmet]:
 
 
 def _decide(piping: Piping, groups: Sequence[Group]) -> tuple[list[Group], list[Group]]:
-    """Which groups are units, each device one; and handwheels on no valve, legs and lugs on no vessel."""
+    """Which groups are units, each device one; and handwheels on no valve, lugs on no vessel, nameplates."""
     reached = set(piping.mounted)
     # Where labels are doubtful, what only its own label calls a device and no line leads to is none.
     held = [
         group for group in groups if not piping.unsupported.issuperset(group.parts) or reached.intersection(group.parts)
     ]
     likeliest = _likeliest_names(piping)
-    loose = [group for group in held if is_loose(group, likeliest, reached)]
+    loose = [group for group in held if is_loose(group, likeliest, reached, piping.given.parts)]
     return split_groups(piping, [group for group in held if group not in loose]), loose
 
 

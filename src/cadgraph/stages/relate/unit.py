@@ -8,6 +8,7 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from cadgraph.geometry.components import connected_sets
+from cadgraph.model.parts import Parts
 from cadgraph.model.vocabulary import FASTENERS
 from cadgraph.stages.relate.enclosed import holds_disc
 from cadgraph.stages.relate.line import is_disc
@@ -25,6 +26,8 @@ OPERATORS = frozenset(
 # What stands on a vessel is none by itself, and machines have it, too; what drives a pump drives other machines.
 _ON_VESSELS = frozenset({"nozzle", "manway", "saddle", "skirt", "tank leg", "lifting lug"})
 _DRIVES = frozenset({"motor", "motor fan cover", "terminal box", "shaft", "coupling guard", "pump base"})
+_DIALS = frozenset({"gauge face", "gauge needle"})
+_OBLONG = 1.2  # length as share of the width
 _DRIVEN = frozenset({"compressor", "blower", "burner", "separator"})
 
 
@@ -53,19 +56,29 @@ def _pairs_of_one_type(given: RelateInput, types: Sequence[str | None]) -> list[
     ]
 
 
-def is_loose(group: Group, names: Sequence[str | None], reached: Collection[int]) -> bool:
-    """Whether a group is but a handwheel, lever or the like that sits on no valve, or a leg or lug on no vessel.
+def is_loose(group: Group, names: Sequence[str | None], reached: Collection[int], parts: Parts) -> bool:
+    """Whether a group is but a handwheel, lever or the like that sits on no valve, a leg or lug on no vessel, or a dial
+    without a case that is not round: the nameplate of a pump.
 
     Args:
         group: connected parts.
         names: of each part, or the likeliest where only the group is known.
         reached: parts at which lines end.
+        parts: of the scene.
     """
     if any(part in reached for part in group.parts):
         return False
     if group.unit_type == "tank":
         return all(names[part] in _ON_VESSELS - {"nozzle"} for part in group.parts)
+    if group.unit_type == "gauge":
+        return all(names[part] in _DIALS and _is_oblong(parts, part) for part in group.parts)
     return group.unit_type == "valve" and _is_operator(group.parts, names)
+
+
+def _is_oblong(parts: Parts, part: int) -> bool:
+    """Whether a part is longer than wide."""
+    long, wide, _ = parts.properties.obb_extents[part].tolist()
+    return bool(long > _OBLONG * wide)
 
 
 def _is_operator(parts: Collection[int], names: Sequence[str | None]) -> bool:
