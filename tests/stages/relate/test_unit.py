@@ -115,4 +115,6 @@ def test_a_dial_by_itself_is_a_gauge_where_it_is_as_wide_as_long_and_else_a_name
     sketch.add(block((0, 0, 0), 0.3), "Pump unit", "pump", source="author")
     sketch.pipe((0.15, 0, 0), (1, 0, 0), source="author")
     sketch.add(block((0, 0.151, 0), size), GAUGE, "gauge face", sure=0.64)
-    assert any(unit.unit_type == "gauge" for unit in sketch.connected().network.units) is found
+    connected = sketch.connected()
+    assert any(unit.unit_type == "gauge" for unit in connected.network.units) is found
+    assert [one.meshes for one in connected.diagnostics if one.code == "loose-dial"] == ([] if found else [("/m2",)])

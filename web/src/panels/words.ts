@@ -125,6 +125,7 @@ const CODES: Record<string, string> = {
   "unit-doubt": "Units in doubt",
   "loose-operator": "Operators without a valve",
   "loose-fitting": "Lugs and legs without a vessel",
+  "loose-dial": "Dials without a gauge",
   "valve-not-movable": "Valves without a wheel or lever",
   "damaged-source": "The file is damaged",
   "damaged-entity": "Damaged entries of the file",

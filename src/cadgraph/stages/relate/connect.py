@@ -263,6 +263,7 @@ def _loose_pieces(parts: Parts, loose: Sequence[Group]) -> Iterator[Diagnostic]:
     for unit_type, code, what in (
         ("valve", "loose-operator", "handwheels, levers or the like that sit on no valve"),
         ("tank", "loose-fitting", "lifting lugs, legs or the like that stand on no vessel"),
+        ("gauge", "loose-dial", "dials by themselves that are longer than wide, as nameplates are,"),
     ):
         heads = tuple(
             parts.scene.paths[part] for group in loose if group.unit_type == unit_type for part in group.parts
