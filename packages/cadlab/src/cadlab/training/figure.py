@@ -118,7 +118,9 @@ def answer(
     for original in examples:
         e = change(original)
         inputs = np.hstack([e.forms[e.shape], e.sizes[e.shape], e.places]).astype(np.float64)
-        scores = sum(member.scores(inputs, e.sides.astype(np.float64), e.here, e.there) for member in model.members)
+        scores = np.zeros((len(inputs), len(classes)))
+        for member in model.members:
+            scores += member.scores(inputs, e.sides.astype(np.float64), e.here, e.there)
         p = softmax(scores / (len(model.members) * model.temperature))
         p = spread(p, e.shape) if repeats else p
         told = p.copy()
