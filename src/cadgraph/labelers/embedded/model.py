@@ -58,11 +58,7 @@ class Model:
     card: Mapping[str, Any] = field(default_factory=dict)
 
     def probabilities(self, seen: Observation) -> Floats:
-        """The probability of each class for each part, ``(n_parts, n_classes)``.
-
-        The networks' probabilities are averaged as logarithms: that mean is as sure as each network is by itself, for
-        which the temperature was found; the mean of the probabilities themselves is less sure than it is right.
-        """
+        """The probability of each class for each part, ``(n_parts, n_classes)``."""
         around = seen.surroundings
         rounds = max((member.rounds for member in self.members), default=0)
         alike = find_alike(inputs_of(seen), around.sides, around.here, around.there, rounds)
@@ -70,7 +66,18 @@ class Model:
         for member in self.members:
             scores = member.answers(member.hidden(alike.inputs), alike.talks[: member.rounds])
             total += scores[alike.among_last(member.rounds)]
-        return softmax(total / (max(len(self.members), 1) * self.temperature))[alike.kinds[-1]]
+        return self.pooled(total)[alike.kinds[-1]]
+
+    def pooled(self, scores: Floats) -> Floats:
+        """Probabilities from the scores of all networks together.
+
+        The networks' probabilities are averaged as logarithms: that mean is as sure as each network is by itself, for
+        which the temperature was found; the mean of the probabilities themselves is less sure than it is right.
+
+        Args:
+            scores: ``(n, n_classes)`` sum over the networks.
+        """
+        return softmax(scores / (max(len(self.members), 1) * self.temperature))
 
     def kinship(self, seen: Observation) -> Floats:
         """A point for each part, ``(n_parts, width)`` of length 1: parts of one kind lie close, known or not.

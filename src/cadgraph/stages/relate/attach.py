@@ -42,6 +42,9 @@ _TIGHT = 0.001
 # Two solids are flanged to each other where they meet in a flat round area: normals this parallel, extents this alike,
 # and at least this large against the lesser solid.
 _FACE_FLAT, _FACE_ROUND, _FACE_SHARE, _FACE_THIN = 0.9, 0.72, 0.25, 0.2
+# Such an area takes in the walls of both solids as far as they are within the gap that is allowed: a thickness of so
+# much of it says nothing of one running into the other.
+_FACE_SEEN = 0.9
 # An end within this much [m], or this share of its radius, of another one that looks the same way is its twin, where
 # the two lines run beside each other by at least this much [m] or this share of the shorter: a pipe in its flange, but
 # not a gasket behind it.
@@ -521,7 +524,7 @@ def flat_contacts(
         if (
             regions.flatness[k] >= _FACE_FLAT
             and high >= _FACE_ROUND * wide
-            and thin <= max(deep * wide + 0.002, 0.9 * eps)
+            and thin <= max(deep * wide + 0.002, _FACE_SEEN * eps)
             and wide >= _FACE_SHARE * size
         ):
             found[a, b] = regions.centroid[k], regions.normal[k]

@@ -49,9 +49,9 @@ def split_groups(piping: Piping, groups: Sequence[Group]) -> list[Group]:
 def _split(piping: Piping, group: Group, own: Mapping[int, Sequence[int]]) -> list[Group]:
     """The devices of a group, by its parts at which lines end: itself unless it may hold several, and does."""
     beyond = _beyond(piping, group)
-    stems = _stems(piping, group, beyond) if group.unit_type == "gauge" else []
-    if stems:
-        return _divide(piping, group, stems)
+    gauges = _by_stems(piping, group, beyond) if group.unit_type == "gauge" else []
+    if gauges:
+        return gauges
     if group.unit_type not in _SPLIT or not own or len(own.keys() | {a for a, _ in beyond}) < 2:
         return [group]
     found = _by_cores(piping, group, own, _cores(piping, group, own, beyond))
@@ -63,7 +63,10 @@ def _by_cores(piping: Piping, group: Group, own: Mapping[int, Sequence[int]], co
     if len(cores) > 1:
         return _divide(piping, group, cores)
     halves = _halves_beside(piping, cores[0], own) if cores else ()
-    return _joined(_divide(piping, group, [*cores, *halves]), cores[0]) if halves else [group]
+    if not halves:
+        return [group]
+    alone, *rest = _divide(piping, group, [*cores, *halves])
+    return [alone, replace(group, parts=tuple(sorted(part for half in rest for part in half.parts)))]
 
 
 @dataclass(frozen=True)
@@ -152,31 +155,25 @@ def _halves_beside(piping: Piping, core: int, own: Mapping[int, Sequence[int]]) 
     rows = [(part, row) for part, held in sorted(own.items()) for row in held if part != core]
     for (part, row), (other, far) in combinations(rows, 2) if at else ():
         passed = part != other and arrangement_of(ends, [row, far]) == "aligned"
-        if passed and not any(_heads_for(ends, row, mine) for mine in at):
+        if passed and not any(_on_axis(ends, row, mine) for mine in at):
             return part, other
     return ()
 
 
-def _heads_for(ends: Ends, row: int, other: int) -> bool:
+def _on_axis(ends: Ends, row: int, other: int) -> bool:
     """Whether an end lies on the axis of another one."""
-    between = ends.point[other] - ends.point[row]
-    across = between - (between @ ends.direction[row]) * ends.direction[row]
-    return float(np.linalg.norm(across)) <= float(ends.radius[row])
+    return extent_about(ends, row, ends.point[[other]])[1] <= float(ends.radius[row])
 
 
-def _joined(groups: Sequence[Group], apart: int) -> list[Group]:
-    """Groups, of which all but the one of a part are one."""
-    own = [group for group in groups if apart in group.parts]
-    rest = sorted(part for group in groups if apart not in group.parts for part in group.parts)
-    return [*own, replace(groups[0], parts=tuple(rest))]
+def _by_stems(piping: Piping, group: Group, beyond: Sequence[tuple[int, int]]) -> list[Group]:
+    """The gauges of a group that stand so close that their cases touch: each has a case, and a stem that is screwed in.
 
-
-def _stems(piping: Piping, group: Group, beyond: Sequence[tuple[int, int]]) -> list[int]:
-    """The stems of gauges that stand so close that their cases touch: each has a case and is screwed in."""
+    Empty where the group is one gauge.
+    """
     names = piping.roles.names
     stems = sorted({part for part, _ in beyond if names[part] == "gauge stem"})
     pieces = _divide(piping, group, stems) if len(stems) > 1 else []
-    return stems if pieces and all(any(names[part] in _CASES for part in piece.parts) for piece in pieces) else []
+    return pieces if all(any(names[part] in _CASES for part in piece.parts) for piece in pieces) else []
 
 
 def _feet(group: Group, bodies: Collection[int], holders: Collection[int]) -> list[int]:
@@ -280,7 +277,9 @@ def _stands_out(parts: Parts, body: int, rows: Sequence[int], found: Attachments
 
 
 def _divide(piping: Piping, group: Group, cores: Sequence[int]) -> list[Group]:
-    """Gives each part to the core that is the fewest contacts away; of two the one that is nearer."""
+    """Gives each part to the core that is the fewest contacts away, of two the one that is nearer; a group for each
+    core, in their order.
+    """
     centers = piping.given.parts.properties.obb_center
     inside = set(group.parts)
     steps = {core: _steps(core, inside, piping.given.neighbors, set(cores) - {core}) for core in cores}

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from cadgraph.labelers.embedded.labeler import spread
-from cadgraph.labelers.embedded.model import STRANGE, Model, softmax
+from cadgraph.labelers.embedded.model import STRANGE, Model
 from cadgraph.model.scene import Floats, Ints
 from cadlab.training.example import Example, Texts
 
@@ -121,7 +121,7 @@ def answer(
         scores = np.zeros((len(inputs), len(classes)))
         for member in model.members:
             scores += member.scores(inputs, e.sides.astype(np.float64), e.here, e.there)
-        p = softmax(scores / (len(model.members) * model.temperature))
+        p = model.pooled(scores)
         p = spread(p, e.shape) if repeats else p
         told = p.copy()
         told[:, classes == STRANGE] = 0.0  # never an answer, but it takes its share of the confidence
