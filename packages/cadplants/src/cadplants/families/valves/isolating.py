@@ -8,6 +8,7 @@ from cadplants.families.valves.disc import DISCS
 from cadplants.families.valves.gate import GATES
 from cadplants.families.valves.globe import GLOBES
 from cadplants.families.valves.lining import LININGS
+from cadplants.families.valves.plain_bodies import PLAIN_BODIES
 from cadplants.families.valves.plug import PLUGS
 from cadplants.families.valves.sluice import SLUICES
 from cadplants.families.valves.union import UNIONS
@@ -15,4 +16,6 @@ from cadplants.model.family import Family
 
 __all__ = ["ISOLATING"]
 
-ISOLATING: tuple[Family, ...] = (*GATES, *SLUICES, *GLOBES, *CONTROLS, *BALLS, *UNIONS, *DISCS, *LININGS, *PLUGS)
+ISOLATING: tuple[Family, ...] = (
+    *GATES, *SLUICES, *GLOBES, *CONTROLS, *BALLS, *UNIONS, *DISCS, *LININGS, *PLUGS, *PLAIN_BODIES,
+)  # fmt: skip
