@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+import fittings
 import shapes
 import tubes
 from cadgraph.geometry.line.centreline import Branch
@@ -207,3 +208,19 @@ def test_a_lever_sits_on_the_piece_that_it_touches_not_on_the_pipe_that_it_passe
     foot, lever = block((0.1, 0, R + 0.01), (0.02, 0.02, 0.024)), block((0.2, 0, R + over + 0.005), (0.22, 0.02, 0.01))
     sketch.add(merged(foot, lever), VALVE, "lever", likely={(VALVE, "lever"): 0.9})
     assert valves(sketch) == found
+
+
+@pytest.mark.parametrize("group", [VALVE, PIPE])
+def test_a_piece_whose_neck_ends_at_what_turns_it_is_a_valve(group):
+    neck = fittings.Outlet(0.1, 0.02, 0.1, turn=np.pi / 2)
+    sketch = between(fittings.branched(R, 0.2, [neck], 24).mesh)
+    sketch.add(block((0.1, 0, 0.16), 0.12), group, "actuator" if group == VALVE else "tee", 0.9)
+    assert valves(sketch) == ([(0, 3)] if group == VALVE else [])
+
+
+@pytest.mark.parametrize(("likely", "found"), [
+    ({(VALVE, "valve"): 0.2, ("Pump unit", "pump casing"): 0.15, ("Gauge assembly", "flow meter"): 0.18}, [(0,)]),
+    ({(VALVE, "valve"): 0.2, (PIPE, "coupling"): 0.3, ("Gauge assembly", "flow meter"): 0.18}, []),
+])  # fmt: skip
+def test_a_likely_device_of_doubtful_type_is_a_valve(likely, found):
+    assert valves(between(cone((0, 0, 0), (0.2, 0, 0), R, R), likely=likely)) == found

@@ -21,7 +21,7 @@ def test_a_gauge_screwed_into_a_valve_is_joined_to_it(gap, joined):
     assert (("G-001", "V-001") in links(graph)) is joined
     if joined:
         [joint] = [joint for joint in graph.joints() if joint.kind == "flange"]
-        assert joint.reasons == ("no line ends at the gauge, and it touches this",)
+        assert joint.reasons == ("no line ends at it, and it touches this",)
         assert joint.gap == pytest.approx(gap, abs=5e-4)
 
 
@@ -73,3 +73,14 @@ def test_small_stubs_are_flanged_to_each_other_as_wide_ones_are(stub):
         ((stub, 0.01), 0.065), ((2 * stub, 0.2), 0.17)))))  # fmt: skip
     given = sketch.given()
     assert list(flat_contacts(given.parts, given.contacts, [(0, 1)], given.config.cluster.eps)) == [(0, 1)]
+
+
+@pytest.mark.parametrize(("others", "joined"), [((), True), ((0.07,), False)])
+def test_a_valve_without_a_line_is_screwed_into_the_only_device_that_it_touches(others, joined):
+    plant = line_with_valve()
+    stub, body = (turned(shapes.cylinder(*size), (0.589, y, 0), (0, 1, 0)) for size, y in (
+        ((0.008, 0.03), -0.064), ((0.04, 0.06), -0.108)))  # fmt: skip
+    plant.add(merged(stub, body), VALVE, "valve")
+    for aside in others:
+        plant.add(block((0.589 + aside, -0.12, 0), 0.06), PUMP, "pump casing")
+    assert (("V-001", "V-002") in links(plant.graph())) is joined

@@ -126,3 +126,13 @@ def test_pipes_that_the_labeler_is_sure_of_stay_even_alone():
     sketch.pipe((0, 0, 0), (1, 0, 0))
     sketch.add(turned(shapes.sphere(0.1), (5, 5, 5), X))
     assert left(sketch) == ([0], [0])
+
+
+@pytest.mark.parametrize(("pipe", "found"), [(0.05, []), (0.3, [0])])
+def test_a_bent_body_that_is_likely_a_device_carries_no_line(pipe, found):
+    sketch = Sketch()
+    said = {(PIPE, "elbow"): pipe, ("Equipment", "separator"): 0.6}
+    sketch.add(bend((-0.2, 0, 0), (0, 0, 0), (0, 0.2, 0), reach=0.2), PIPE, "elbow", likely=said)
+    sketch.pipe((-1, 0, 0), (-0.2, 0, 0))
+    sketch.pipe((0, 0.2, 0), (0, 1, 0))
+    assert left(sketch) == ([0, 1, 2], [*found, 1, 2])

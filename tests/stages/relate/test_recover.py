@@ -235,3 +235,17 @@ def test_what_a_motor_without_a_pump_stands_at_is_one(name, kind):
 def test_what_is_surely_a_fitting_is_no_valve_by_its_length(valve, fitting, kind):
     likely = {NAMES["valve"]: valve, (PIPE, "strainer"): fitting}
     assert recovered("valve", "aligned", 3.3, valve, likely=likely) == kind
+
+
+@pytest.mark.parametrize(("said", "apart"), [
+    ({(GAUGE, "transmitter"): 0.8, (TANK, "nozzle"): 0.01}, True),
+    ({(GAUGE, "transmitter"): 0.5, (TANK, "nozzle"): 0.4}, False),
+])  # fmt: skip
+def test_a_gauge_on_a_body_without_a_name_stays_one_where_it_is_far_likelier_that(said, apart):
+    sketch = around((0.6, 0.8, 0.6), "many", likely={(TANK, "tank"): 0.5, (EQUIPMENT, "boiler"): 0.2})
+    gauge = sketch.add(
+        turned(shapes.cylinder(0.03, 0.1), (0, 0.45, 0), (0, 1, 0)), GAUGE, "transmitter", sure=0.6, likely=said
+    )
+    groups = {part: group.unit_type for group in recover_units(sketch.piping()).groups for part in group.parts}
+    assert groups[0] == "tank"
+    assert groups[gauge] == ("gauge" if apart else "tank")

@@ -3,7 +3,7 @@
 import pytest
 
 import shapes
-from piping import GAUGE, PIPE, VALVE, Plant, gauge_mesh, links, ring, tags, turned, valve_mesh
+from piping import GAUGE, PIPE, VALVE, Plant, R, gauge_mesh, links, ring, tags, turned, valve_mesh
 from sketch import UP, X, block
 
 
@@ -73,3 +73,24 @@ def test_gauges_whose_cases_touch_are_as_many_as_have_a_stem_and_a_case(apart, n
     if not apart:
         plant.add(block((0.089, -0.13, 0), (0.1, 0.06, 0.03)), GAUGE, "gauge case")
     assert sum(unit.unit_type == "gauge" for unit in plant.graph().units()) == n
+
+
+@pytest.mark.parametrize(("names", "n"), [(("valve", "valve"), 2), (("valve", "valve body"), 1)])
+def test_two_that_are_called_by_the_name_of_the_whole_are_two_however_short(names, n):
+    plant = Plant().pipe((-1, 0, 0), (0, 0, 0)).pipe((0.15, 0, 0), (1, 0, 0))
+    for name, (low, high), radius in zip(names, ((0.0, 0.1), (0.1, 0.15)), (0.08, 0.06), strict=True):
+        plant.add(turned(shapes.tube(radius, R, high - low), ((low + high) / 2, 0, 0), X), VALVE, name)
+    plant.add(block((0.155, 0, 0.1), (0.12, 0.02, 0.1)), VALVE, "lever")
+    assert valves(plant) == n
+
+
+@pytest.mark.parametrize(("turned_by", "n"), [("both", 2), ("one", 1)])
+def test_a_valve_on_the_inlet_of_an_angle_valve_is_one_of_its_own_where_each_body_is_turned(turned_by, n):
+    plant = Plant().add(block((0, 0, 0), (0.2, 0.2, 0.2)), PIPE, "cross").pipe((0, 0, -0.1), (0, 0, -1))
+    for x in (0.2, 0.4):
+        plant.add(block((x, 0, 0), (0.2, 0.15, 0.15)), VALVE, "valve body")
+        if turned_by == "both" or x < 0.3:
+            plant.add(turned(shapes.cylinder(0.03, 0.1), (x, 0, 0.125), UP), VALVE, "valve bonnet")
+            plant.add(turned(shapes.cylinder(0.09, 0.02), (x, 0, 0.185), UP), VALVE, "handwheel")
+    plant.pipe((0.4, 0, -0.075), (0.4, 0, -1))
+    assert valves(plant) == n

@@ -118,3 +118,24 @@ def test_a_dial_by_itself_is_a_gauge_where_it_is_as_wide_as_long_and_else_a_name
     connected = sketch.connected()
     assert any(unit.unit_type == "gauge" for unit in connected.network.units) is found
     assert [one.meshes for one in connected.diagnostics if one.code == "loose-dial"] == ([] if found else [("/m2",)])
+
+
+@pytest.mark.parametrize(("name", "above", "n"), [
+    ("dished head", 0.012, 1), ("dished head", 0.03, 2), ("shell", 0.012, 2),
+])  # fmt: skip
+def test_a_lid_a_little_over_a_shell_is_a_piece_of_its_tank(name, above, n):
+    sketch = Sketch()
+    sketch.add(turned(shapes.cylinder(0.45, 1.2), (0, 0, 0.6), (0, 0, 1)), "Tank", "shell", source="author")
+    sketch.add(turned(shapes.cylinder(0.46, 0.1), (0, 0, 1.25 + above), (0, 0, 1)), "Tank", name, source="author")
+    sketch.pipe((0.45, 0, 0.5), (1.5, 0, 0.5), source="author")
+    sketch.pipe((0.2, 0, 1.3 + above), (0.2, 0, 2.5), source="author")
+    assert sum(unit.unit_type == "tank" for unit in sketch.connected().network.units) == n
+
+
+def test_a_nozzle_that_ends_within_the_corners_of_a_shell_is_a_piece_of_its_tank():
+    sketch = Sketch()
+    sketch.add(block((0, 0, 0), 1.0), "Tank", "shell", source="author")
+    sketch.add(pipe((0.3, 0, 0), (0.45, 0, 0)), "Tank", "nozzle", source="author")
+    sketch.pipe((0.45, 0, 0), (2, 0, 0), source="author")
+    [tank] = [unit for unit in sketch.connected().network.units if unit.unit_type == "tank"]
+    assert tank.parts == (0, 1)

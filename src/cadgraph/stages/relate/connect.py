@@ -33,6 +33,7 @@ from cadgraph.stages.relate.role import Roles, find_roles
 from cadgraph.stages.relate.run import make_network
 from cadgraph.stages.relate.shortfall import find_shortfalls
 from cadgraph.stages.relate.split import split_groups
+from cadgraph.stages.relate.standing import find_standing
 from cadgraph.stages.relate.stated import report_unplaced
 from cadgraph.stages.relate.stated_names import name_as_stated, tag_as_stated
 from cadgraph.stages.relate.stub import drop_stubs
@@ -131,7 +132,7 @@ def _as_paper(given: RelateInput) -> Connected:
 def _joints(piping: Piping, units: Sequence[UnitParts], drawing: Drawing) -> tuple[Joint, ...]:
     """The joints, with those of solids that a user made."""
     made = [joint_of_solids(pair, points) for pair, points in sorted(drawing.by_user.items(), key=lambda row: row[0])]
-    return (*record_joints(piping, units, drawing.met), *made)
+    return (*record_joints(piping, units, drawing), *made)
 
 
 def _unjoined(piping: Piping, network: Network) -> list[Unmet]:
@@ -166,12 +167,13 @@ def _draw(piping: Piping, units: Sequence[UnitParts]) -> Drawing:
     given = piping.given
     owner = {part: -1 - part for part in piping.lineless} | owners_of(units)
     bridged = bridge_solids(given.edits, given.parts, piping.lines, owner)
-    met = {pair: how for pair, how in meet_directly(piping, units).items() if pair not in bridged}
+    standing = find_standing(piping, units)
+    met = {pair: how for pair, how in meet_directly(piping, units, standing).items() if pair not in bridged}
 
     def confidence(part: int) -> float:
         return 1.0 if given.is_connector[part] else _BY_SHAPE
 
-    return draw_network(piping.lines, piping.lineless, units, piping.joints, met, confidence, bridged)
+    return draw_network(piping.lines, piping.lineless, units, piping.joints, met, standing, confidence, bridged)
 
 
 def _contract(piping: Piping, units: Sequence[UnitParts], drawing: Drawing, names: Sequence[str | None]) -> Network:

@@ -15,6 +15,7 @@ from cadgraph.stages.relate.evidence import Curve, Term, tell_terms
 from cadgraph.stages.relate.joint import Facing
 from cadgraph.stages.relate.line import is_disc
 from cadgraph.stages.relate.piping import Group, Piping, Recovered
+from cadgraph.stages.relate.prune import likely_devices
 from cadgraph.stages.relate.span import length_of
 
 __all__ = ["INLINE", "THICKER", "WAIST", "pipe_radius", "recover_inline"]
@@ -27,13 +28,14 @@ THICKER = Curve((1.1, 1.2, 1.4), (0.0, 5.5, 6.5), "it is {:.2f} times as wide as
 """The radius of a straight piece between two flanges over that of the pipes beyond, in log-odds that it is a valve: no
 pipe is wider for the length of a valve. Labels hardly help here: a cylinder looks like a pipe."""
 
-INLINE: Mapping[str, float] = {"base": -2.0, "stem": 2.5, "operator": 3.0}
-"""The log-odds that a straight piece in a line is a valve, and what adds to them: a stem that leads nowhere, or pieces
-of a valve that sit on it alone."""
+INLINE: Mapping[str, float] = {"base": -2.0, "stem": 2.5, "operator": 3.0, "device": 3.0}
+"""The log-odds that a straight piece in a line is a valve, and what adds to them: a stem that leads nowhere, pieces of
+a valve that sit on it alone, or that the labeler holds it for a device, of whatever type, and hardly for piping."""
 
 _ON_IT: Mapping[str, str] = {
     "stem": "a stem on it leads nowhere",
     "operator": "pieces of a valve sit on it and on no other line",
+    "device": "the labeler takes it for a device and hardly for piping",
 }
 # Fittings that are as thick or as narrow as valves: no width tells which a piece is, so that the labeler's word counts.
 _ALIKE = ("strainer", "expansion joint", "flange", "coupling", "union", "hose")
@@ -80,7 +82,7 @@ def recover_inline(piping: Piping, beliefs: Beliefs, likelihood: Curve) -> Pipin
     if not valves:
         return piping
     likely = beliefs.of_groups(valves)
-    others = _rivals(piping, beliefs)
+    others, devices = _rivals(piping, beliefs), likely_devices(piping, beliefs)
     taken: set[int] = set()
     groups: list[Group] = []
     recovered = dict(piping.recovered)
@@ -92,7 +94,8 @@ def recover_inline(piping: Piping, beliefs: Beliefs, likelihood: Curve) -> Pipin
         if _judged(piece, tuple(_ON_IT), said, rival).sure < _SURE:
             continue
         on_it = {"stem": _stems(piping, beliefs, piece), "operator": _operators(piping, piece)}
-        found = _judged(piece, [kind for kind, parts in on_it.items() if parts], said, rival)
+        seen = [kind for kind, parts in on_it.items() if parts]
+        found = _judged(piece, [*seen, *(["device"] if devices[list(piece.parts)].all() else [])], said, rival)
         if found.sure < _SURE or not taken.isdisjoint(piece.parts):
             continue
         parts = tuple(sorted({*piece.parts}.union(*on_it.values()) - taken))
@@ -158,8 +161,7 @@ def _pieces(piping: Piping, beliefs: Beliefs) -> list[_Piece]:
 
 def _straight(piping: Piping, part: int, line: Centreline) -> _Piece | None:
     """A part whose two joined ends lie on one axis, no farther apart than those of a valve."""
-    found = piping.joints
-    rows = [row for row in found.ends.of_part.get(part, ()) if row in found.made and found.made[row].kind != "sleeve"]
+    rows = _passing_rows(piping, part)
     if len(rows) != 2:
         return None
     piece = _piece(piping, (part,), (rows[0], rows[1]), 1.0)
@@ -169,6 +171,16 @@ def _straight(piping: Piping, part: int, line: Centreline) -> _Piece | None:
     waist = _narrowest(line, piping, rows)
     narrows = float(WAIST(waist)) > 0 and not _is_spool(piping, piece)
     return replace(piece, waist=waist if narrows else 1.0, thicker=thicker)
+
+
+def _passing_rows(piping: Piping, part: int) -> list[int]:
+    """The joined ends of a part; of more than two those that don't end at a valve: the neck that its yoke stands on."""
+    found = piping.joints
+    rows = [row for row in found.ends.of_part.get(part, ()) if row in found.made and found.made[row].kind != "sleeve"]
+    if len(rows) <= 2:
+        return rows
+    valves = {held for group in piping.groups if group.unit_type == "valve" for held in group.parts}
+    return [row for row in rows if found.made[row].kind != "mount" or found.made[row].other not in valves]
 
 
 def _is_spool(piping: Piping, piece: _Piece) -> bool:
@@ -287,7 +299,7 @@ def _operators(piping: Piping, piece: _Piece) -> set[int]:
 
 
 def _rests_on(piping: Piping, group: Group, piece: _Piece) -> bool:
-    """Whether no line leads to a group at a piece, and it touches no other line; a lever may pass over one."""
+    """Whether no other line leads to a group at a piece, and it touches no other; a lever may pass over one."""
     gaps: dict[int, float] = {}
     for part in group.parts:
         for line in piping.lines_near(part):
@@ -295,7 +307,8 @@ def _rests_on(piping: Piping, group: Group, piece: _Piece) -> bool:
             gaps[line] = min(gap, gaps.get(line, gap))
     own = min((gap for line, gap in gaps.items() if line in piece.parts), default=0.0)
     touched = {line for line, gap in gaps.items() if gap <= own + _TOUCH}
-    return touched <= set(piece.parts) and piping.mounted.keys().isdisjoint(group.parts)
+    led = {line for part in group.parts for line in piping.mounted.get(part, ())}
+    return touched | led <= set(piece.parts)
 
 
 def _is_stem(piping: Piping, piece: _Piece, part: int, thin: float) -> bool:

@@ -1,4 +1,4 @@
-"""Solids that are joined to each other without a line between: flanged, or a gauge screwed into a device."""
+"""Solids that are joined to each other without a line between: flanged, or a gauge or valve screwed into a device."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 
 from cadgraph.model.parts import UnitParts, owners_of
 from cadgraph.stages.relate.attach import flat_contacts, regions_of
-from cadgraph.stages.relate.network import FLANGED_SCORE, SIDE_SCORE, Meeting, gauge_sides
+from cadgraph.stages.relate.network import FLANGED_SCORE, SIDE_SCORE, Meeting
 from cadgraph.stages.relate.piping import Piping
 from cadgraph.stages.relate.unit import OPERATORS
 
@@ -17,14 +17,18 @@ __all__ = ["meet_directly"]
 _DEEP = 0.6  # of their width units run into each other where they are drawn without care for it (share)
 _SCREWED = 0.002  # a gauge is screwed into what is this near [m]; threads are drawn with play
 _AT = frozenset({"valve", "pump", "equipment"})  # what gauges are screwed into; at a tank they may but lean
+_ENDS = frozenset({"gauge", "valve"})  # what may be screwed into a device
 
 
-def meet_directly(piping: Piping, units: Sequence[UnitParts]) -> dict[tuple[int, int], Meeting]:
+def meet_directly(
+    piping: Piping, units: Sequence[UnitParts], standing: Collection[int]
+) -> dict[tuple[int, int], Meeting]:
     """The pairs of solids that are joined without a line between.
 
     Args:
         piping: what joins what.
         units: in order.
+        standing: numbers of the units that stand on the side of a line.
     """
     given = piping.given
     pairs = _between(piping, units)
@@ -33,7 +37,7 @@ def meet_directly(piping: Piping, units: Sequence[UnitParts]) -> dict[tuple[int,
         pair: Meeting(middle, 0.0, FLANGED_SCORE, "they meet in a flat round area")
         for pair, (middle, _) in flat.items()
     }
-    found |= _screwed(piping, units, pairs, found)
+    found |= _screwed(piping, units, pairs, found, standing)
     return {pair: meeting for pair, meeting in found.items() if pair not in given.edits.cut}
 
 
@@ -53,10 +57,16 @@ def _operators(parts: Sequence[int], names: Sequence[str | None]) -> list[int]:
 
 
 def _screwed(
-    piping: Piping, units: Sequence[UnitParts], pairs: Collection[tuple[int, int]], joined: Collection[tuple[int, int]]
+    piping: Piping,
+    units: Sequence[UnitParts],
+    pairs: Collection[tuple[int, int]],
+    joined: Collection[tuple[int, int]],
+    standing: Collection[int],
 ) -> dict[tuple[int, int], Meeting]:
-    """For each gauge that neither a line nor a flange holds the device that it touches, the nearest of several."""
-    free, owner = _free_gauges(piping, units, joined), owners_of(units)
+    """For each gauge or valve that no line and no flange holds the device that it touches, of several the nearest; a
+    valve that touches more than one is joined to none.
+    """
+    free, owner = _free_units(piping, units, pairs, joined, standing), owners_of(units)
     best: dict[int, int] = {}
     for row in _rows_at_devices(piping, units, pairs, free):
         a, b = piping.given.contacts.plain_pairs[row]
@@ -65,39 +75,60 @@ def _screwed(
 
 
 def _rows_at_devices(
-    piping: Piping, units: Sequence[UnitParts], pairs: Collection[tuple[int, int]], gauges: Collection[int]
+    piping: Piping, units: Sequence[UnitParts], pairs: Collection[tuple[int, int]], free: Collection[int]
 ) -> list[int]:
-    """The contacts of parts of gauges with devices that these may be screwed into, the nearest first."""
+    """The contacts of parts of free units with devices that these may be screwed into, the nearest first."""
     contacts = piping.given.contacts
     bodies = {part for unit in units if unit.unit_type in _AT for part in unit.parts}
-    wanted = {pair for pair in pairs if _is_on(pair, gauges, bodies)}
+    wanted = {pair for pair in pairs if _is_on(pair, free, bodies)}
     gaps = contacts.distance.tolist()
     rows = [row for row, pair in enumerate(contacts.plain_pairs) if pair in wanted and gaps[row] <= _SCREWED]
     return sorted(rows, key=lambda row: (gaps[row], row))
 
 
-def _free_gauges(piping: Piping, units: Sequence[UnitParts], joined: Collection[tuple[int, int]]) -> set[int]:
-    """The parts of the gauges that neither a line nor a flange holds."""
+def _free_units(
+    piping: Piping,
+    units: Sequence[UnitParts],
+    pairs: Collection[tuple[int, int]],
+    joined: Collection[tuple[int, int]],
+    standing: Collection[int],
+) -> set[int]:
+    """The parts of the gauges and valves that neither a line nor a flange holds; valves touch just one device."""
     owner = owners_of(units)
     held = {owner.get(part) for pair in joined for part in pair} | {owner.get(part) for part in piping.mounted}
-    held |= set(gauge_sides(piping.joints, units, piping.lines))
-    gauges = [unit for number, unit in enumerate(units) if unit.unit_type == "gauge" and number not in held]
-    return {part for unit in gauges for part in unit.parts}
+    held = held.union(standing)
+    around: dict[int, set[int]] = {}
+    for a, b in pairs:
+        for part, other in ((a, b), (b, a)):
+            around.setdefault(owner.get(part, -1), set()).add(owner.get(other, -1 - other))
+    free = [
+        unit
+        for number, unit in enumerate(units)
+        if unit.unit_type in _ENDS
+        and number not in held
+        and (unit.unit_type == "gauge" or _alone(piping, unit, around.get(number, ())))
+    ]
+    return {part for unit in free for part in unit.parts}
 
 
-def _is_on(pair: tuple[int, int], gauges: Collection[int], bodies: Collection[int]) -> bool:
-    """Whether two parts are one of some gauges and one of what they may sit on."""
+def _alone(piping: Piping, unit: UnitParts, around: Collection[int]) -> bool:
+    """Whether a unit touches one device, and no line."""
+    return len(around) == 1 and not any(piping.lines_near(part) for part in unit.parts)
+
+
+def _is_on(pair: tuple[int, int], free: Collection[int], bodies: Collection[int]) -> bool:
+    """Whether two parts are one of some free units and one of what they may sit on."""
     a, b = pair
-    return (a in gauges and b in bodies) or (b in gauges and a in bodies)
+    return (a in free and b in bodies) or (b in free and a in bodies)
 
 
 def _meetings(piping: Piping, rows: Sequence[int]) -> dict[tuple[int, int], Meeting]:
-    """What some contacts of gauges come to, each where its middle is."""
+    """What some contacts of free units come to, each where its middle is."""
     if not rows:
         return {}
     given = piping.given
     regions = regions_of(given.parts, given.contacts, np.array(rows, np.int64), given.config.cluster.eps)
-    gaps, why = given.contacts.distance, "no line ends at the gauge, and it touches this"
+    gaps, why = given.contacts.distance, "no line ends at it, and it touches this"
     return {
         given.contacts.plain_pairs[row]: Meeting(regions.centroid[k], float(gaps[row]), SIDE_SCORE, why)
         for k, row in enumerate(rows)

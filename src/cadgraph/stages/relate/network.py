@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 
@@ -16,7 +16,7 @@ from cadgraph.stages.relate.attach import Attachments, Side
 from cadgraph.stages.relate.line import is_disc
 from cadgraph.stages.relate.span import Net, Span, length_of
 
-__all__ = ["FLANGED_SCORE", "SIDE_SCORE", "TWIN_SCORE", "Drawing", "Meeting", "draw_network", "gauge_sides"]
+__all__ = ["FLANGED_SCORE", "SIDE_SCORE", "TWIN_SCORE", "Drawing", "Meeting", "draw_network"]
 
 TWIN_SCORE, FLANGED_SCORE, SIDE_SCORE = 0.99, 0.97, 0.85
 """How sure a joint is that no offer tells (ours): ends in one place, flanged solids, gauges at a line or a device."""
@@ -53,6 +53,7 @@ class Drawing:
         solids: nodes that are a connector without a line, and which part.
         bridged: parts on both sides of each bridged gap, and the gap [m].
         met: pairs of solids that are joined without a line between, and how.
+        standing: places of units on the sides of lines, by number of the unit.
         by_user: pairs of solids that a user joined, and the two ends of the gap between them [m].
     """
 
@@ -63,6 +64,7 @@ class Drawing:
     solids: Mapping[int, int]
     bridged: tuple[tuple[int, int, float], ...]
     met: Mapping[tuple[int, int], Meeting] = field(default_factory=dict)
+    standing: Mapping[int, Side] = field(default_factory=dict)
     by_user: Mapping[tuple[int, int], Floats] = field(default_factory=dict)
 
 
@@ -105,6 +107,7 @@ def draw_network(
     units: Sequence[UnitParts],
     found: Attachments,
     met: Mapping[tuple[int, int], Meeting],
+    standing: Mapping[int, Side],
     sure: Callable[[int], float],
     bridged: Mapping[tuple[int, int], Floats] = MappingProxyType({}),
 ) -> Drawing:
@@ -116,6 +119,7 @@ def draw_network(
         units: with their parts.
         found: what joins what.
         met: pairs of solids that are joined without a line between, and how.
+        standing: places of units on the sides of lines, by number of the unit.
         sure: how sure it is that a part is a connector.
         bridged: pairs of solids that a user joined across a gap, and the two ends of it, ``(2, 3)`` [m].
     """
@@ -127,13 +131,13 @@ def draw_network(
             draft.node_of_end[row] = draft.new()
     _join_ends(draft)
     _place_taps(draft)
-    _place_gauges(draft, units)
+    _place_standing(draft, standing)
     for part in sorted(lines):
         _draw_line(draft, part, sure(part))
     _draw_mounts(draft)
     _draw_solids(draft, {pair: (how.point[None], how.score) for pair, how in met.items()})
     _draw_solids(draft, {pair: (way, 1.0) for pair, way in bridged.items()})
-    return replace(_finish(draft), met=met, by_user=bridged)
+    return replace(_finish(draft), met=met, standing=standing, by_user=bridged)
 
 
 def _join_ends(draft: _Draft) -> None:
@@ -163,30 +167,9 @@ def _place_taps(draft: _Draft) -> None:
             draft.taps.append(here)
 
 
-def gauge_sides(found: Attachments, units: Sequence[UnitParts], lines: Collection[int]) -> dict[int, Side]:
-    """The place on the side of a line of each gauge that no end leads to: the one that it touches best.
-
-    Args:
-        found: what joins what.
-        units: in order.
-        lines: parts that carry one.
-
-    Returns:
-        Places by number of the unit, ascending.
-    """
-    owner = {part: k for k, unit in enumerate(units) for part in unit.parts if unit.unit_type == "gauge"}
-    mounted = {owner.get(mount.part) for mount in found.mounts}
-    best: dict[int, Side] = {}
-    for side in sorted(found.sides, key=lambda side: (side.tap.gap, side.part)):
-        unit = owner.get(side.solid)
-        if unit is not None and unit not in mounted and side.part in lines:
-            best.setdefault(unit, side)
-    return dict(sorted(best.items()))
-
-
-def _place_gauges(draft: _Draft, units: Sequence[UnitParts]) -> None:
-    """A gauge that no end leads to hangs on the side of a line."""
-    for unit, side in gauge_sides(draft.found, units, draft.lines).items():
+def _place_standing(draft: _Draft, standing: Mapping[int, Side]) -> None:
+    """A gauge or a valve that no end leads to hangs on the side of a line."""
+    for unit, side in standing.items():
         here = draft.new()
         draft.places.setdefault((side.part, side.tap.branch), []).append((side.tap.s, here, side.tap.point))
         draft.taps.append(here)

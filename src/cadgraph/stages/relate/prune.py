@@ -3,20 +3,23 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import replace
 
 from cadgraph.geometry.components import connected_sets
+from cadgraph.model.parts import Bools
 from cadgraph.stages.relate.attach import Attachments
 from cadgraph.stages.relate.belief import Beliefs
 from cadgraph.stages.relate.line import is_disc
 from cadgraph.stages.relate.piping import Piping
 
-__all__ = ["prune_lines"]
+__all__ = ["likely_devices", "prune_lines"]
 
 _LEAST_PIPE = 0.3  # a line that the labeler finds less likely than this leads to two things at least, a disc sooner
 _LEAST_END = 0.5  # likewise a disc that touches one thing only: the flange at the end of a run
 _LEADS = 2
+_HARDLY, _DEVICE = 0.25, 0.5  # a likely device is one by the second at least, and piping by this share of it
+_OPPOSITE = -0.95  # cosine between two ends on one axis
 _LIKELY = 0.7  # from this probability on something is taken for a line, or a piece of a unit, without more
 
 
@@ -27,7 +30,7 @@ def prune_lines(piping: Piping, beliefs: Beliefs) -> Piping:
         piping: with all lines.
         beliefs: what each part may be.
     """
-    return _without_stubs(_without_rings(piping, beliefs), beliefs)
+    return _without_stubs(_without_bodies(_without_rings(piping, beliefs), beliefs), beliefs)
 
 
 def _without_rings(piping: Piping, beliefs: Beliefs) -> Piping:
@@ -35,10 +38,7 @@ def _without_rings(piping: Piping, beliefs: Beliefs) -> Piping:
     possible = {part for part in _closed_lines(piping.joints) if beliefs.open[part]}
     connected = connected_sets(sorted(piping.lines), _facing_parts(piping.joints))
     rings = [ring for ring in connected if possible.issuperset(ring)]
-    if not rings:
-        return piping
-    gone = {part for ring in rings for part in ring}
-    return replace(piping, lines={part: line for part, line in piping.lines.items() if part not in gone})
+    return _dropped(piping, {part for ring in rings for part in ring})
 
 
 def _facing_parts(found: Attachments) -> list[tuple[int, int]]:
@@ -54,6 +54,38 @@ def _closed_lines(found: Attachments) -> set[int]:
     return {part for part, rows in found.ends.of_part.items() if joined.issuperset(rows)} - tapped
 
 
+def likely_devices(piping: Piping, beliefs: Beliefs) -> Bools:
+    """``(n_parts,)`` what nobody but the labeler names, and it holds for a device and hardly for piping."""
+    connectors = beliefs.of_groups(piping.given.vocabulary.connector_groups)
+    units = beliefs.of_groups(piping.given.vocabulary.unit_of_group.keys())
+    found: Bools = beliefs.open & (units >= _DEVICE) & (connectors <= _HARDLY * units)
+    return found
+
+
+def _without_bodies(piping: Piping, beliefs: Beliefs) -> Piping:
+    """Takes away lines of likely devices that lead round a corner or to more than two ends: a hydrocyclone, a sump.
+
+    What has two ends on one axis is looked at as a piece of a line.
+    """
+    devices = likely_devices(piping, beliefs)
+    bodies = {part for part in piping.lines if devices[part] and not _passes_straight(piping.joints, part)}
+    return _dropped(piping, bodies)
+
+
+def _passes_straight(found: Attachments, part: int) -> bool:
+    """Whether just two ends of a part join others, and look opposite ways."""
+    rows = [row for row in found.ends.of_part.get(part, ()) if row in found.made]
+    directions = found.ends.direction
+    return len(rows) == 2 and float(directions[rows[0]] @ directions[rows[1]]) <= _OPPOSITE
+
+
+def _dropped(piping: Piping, parts: Collection[int]) -> Piping:
+    """Without the lines of some parts."""
+    if not parts:
+        return piping
+    return replace(piping, lines={part: line for part, line in piping.lines.items() if part not in parts})
+
+
 def _without_stubs(piping: Piping, beliefs: Beliefs) -> Piping:
     """Takes away lines that the labeler holds for something else and that don't run between two likely things."""
     likely, doubtful = _likely_solids(piping, beliefs), _doubtful_lines(piping, beliefs)
@@ -63,7 +95,7 @@ def _without_stubs(piping: Piping, beliefs: Beliefs) -> Piping:
         stubs = {part for part in doubtful if leads[part] < _LEADS}
         if not stubs:
             break
-        piping = replace(piping, lines={part: line for part, line in piping.lines.items() if part not in stubs})
+        piping = _dropped(piping, stubs)
         doubtful -= stubs
     return piping
 

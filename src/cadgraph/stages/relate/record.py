@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 
 from cadgraph.model.parts import Joint, UnitParts
 from cadgraph.model.scene import Floats
 from cadgraph.stages.relate.attach import Attachments
 from cadgraph.stages.relate.edits import CUT
-from cadgraph.stages.relate.network import SIDE_SCORE, TWIN_SCORE, Meeting, gauge_sides
+from cadgraph.stages.relate.network import SIDE_SCORE, TWIN_SCORE, Drawing
 from cadgraph.stages.relate.offer import Offer
 from cadgraph.stages.relate.piping import Piping
 
@@ -18,24 +18,22 @@ _LEAST = 0.005  # what is less sure than this was no joint to think of
 _SLEEVE = "lies along the other one, as in a sleeve"
 
 
-def record_joints(
-    piping: Piping, units: Sequence[UnitParts], met: Mapping[tuple[int, int], Meeting]
-) -> tuple[Joint, ...]:
+def record_joints(piping: Piping, units: Sequence[UnitParts], drawing: Drawing) -> tuple[Joint, ...]:
     """The joints that connections are made of, and for each end that joins nothing the likeliest one.
 
     Args:
         piping: what joins what.
         units: in order.
-        met: pairs of solids that are joined to each other, and how.
+        drawing: of the network.
     """
     found = piping.joints
     joints = [*_made(found), *_twins(found), *_refused(found)]
     taken = {*piping.lines, *piping.lineless, *(part for unit in units for part in unit.parts)}
     joints += [joint for joint in piping.open if joint.first not in taken]
-    for side in gauge_sides(found, units, piping.lines).values():
+    for side in drawing.standing.values():
         why = ("no line ends at it, and it touches this one",)
         joints.append(Joint(side.solid, side.part, "side", _point(side.tap.point), side.tap.gap, SIDE_SCORE, True, why))
-    for (a, b), how in met.items():
+    for (a, b), how in drawing.met.items():
         joints.append(Joint(a, b, "flange", _point(how.point), how.gap, how.score, True, (how.why,)))
     return tuple(sorted(joints, key=lambda joint: (joint.first, joint.second, joint.point, joint.kind)))
 

@@ -72,6 +72,7 @@ _MOTOR = frozenset({"motor", "motor fan cover", "coupling guard"})
 _SURE, _OTHER, _LIKELY = 0.6, 0.8, 0.5
 _LEAST = 1e-3  # no probability counts for less
 _ROOT = 0.3  # how likely a body that a gauge is screwed into must be a device of its own
+_FAR = 8.0  # a unit that is so many times likelier itself than a piece of a body stays apart from it
 _APART = 2.0  # what is so many times likelier something else is no piece of the unit that it is flanged to
 _MOSTLY_NAMED = 0.5  # below this share of parts that only the labeler has named what has no name is no device
 _STANDING = 0.5  # log-odds that what has the ends of lines at it carries them
@@ -97,7 +98,9 @@ def recover_units(piping: Piping) -> Piping:
     ends, bodies = find_bodies(piping, beliefs)
     mounted = frozenset(piping.mounted)
     # Rows of ends hold for the piping that they were found in: all is looked at before anything changes.
-    for sight in [_look_at(piping, beliefs, body, ends, mounted) for body in bodies]:
+    sights = [_look_at(piping, beliefs, body, ends, mounted) for body in bodies]
+    sights = [_with_others_apart(piping, beliefs, sight, ends) for sight in sights]
+    for sight in sights:
         piping = _taken(piping, sight.body, *_type_of(piping, beliefs, sight))
     return take_feet(take_meters(piping, beliefs), beliefs)
 
@@ -147,6 +150,30 @@ def _look_at(piping: Piping, beliefs: Beliefs, body: Body, ends: Ends, mounted: 
         apart=behind if rather >= _APART else None,
         mounted=mounted,
     )
+
+
+def _with_others_apart(piping: Piping, beliefs: Beliefs, sight: _Sight, ends: Ends) -> _Sight:
+    """A body without those units in it that are far likelier themselves than pieces of it: the gauge on a boiler."""
+    body = sight.body
+    kind, _ = _type_of(piping, beliefs, sight)
+    own = _groups_of(piping, kind)
+    held = [g for g in piping.groups if g.unit_type != kind and set(body.parts).issuperset(g.parts)] if own else []
+    apart = {part for group in held if _is_far_likelier(piping, beliefs, group, own) for part in group.parts}
+    rest = tuple(part for part in body.parts if part not in apart)
+    mounts = tuple(mount for mount in body.mounts if mount.part not in apart)
+    if not apart or not rest or not mounts:
+        return sight
+    touched = {other for part in rest for other in piping.given.neighbors.get(part, ())} & apart
+    kept = None if body.unit_type in {group.unit_type for group in held} else body.unit_type
+    near = tuple(sorted(touched.union(body.near)))
+    return _look_at(piping, beliefs, Body(rest, mounts, near, kept), ends, sight.mounted)
+
+
+def _is_far_likelier(piping: Piping, beliefs: Beliefs, group: Group, other: Collection[str]) -> bool:
+    """Whether a unit is likely, and many times likelier than that it is of some other groups."""
+    parts = list(group.parts)
+    said = float(beliefs.of_groups(_groups_of(piping, group.unit_type))[parts].mean())
+    return said >= _LIKELY and said >= _FAR * float(beliefs.of_groups(other)[parts].mean())
 
 
 def _behind(piping: Piping, beliefs: Beliefs, body: Body, ends: Ends, row: int) -> tuple[str | None, float]:

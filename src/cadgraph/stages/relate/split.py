@@ -26,6 +26,7 @@ _LOPSIDED = 1.5
 _WHOLE = 1.2
 _BODY = "valve body"
 _STRAIGHT = 0.99  # cosine between the directions of the two ends of a straight piece
+_TURNING = frozenset({"handwheel", "lever", "actuator", "gearbox"})
 _CASES = frozenset({"gauge", "gauge case", "gauge face"})
 _SPLIT = frozenset({"valve", "pump", "gauge"})
 
@@ -52,9 +53,11 @@ def _split(piping: Piping, group: Group, own: Mapping[int, Sequence[int]]) -> li
     gauges = _by_stems(piping, group, beyond) if group.unit_type == "gauge" else []
     if gauges:
         return gauges
-    if group.unit_type not in _SPLIT or not own or len(own.keys() | {a for a, _ in beyond}) < 2:
+    named = {part for few in (_surely_whole(piping, group), _turned(piping, group)) if len(few) > 1 for part in few}
+    if group.unit_type not in _SPLIT or not own or len(own.keys() | {a for a, _ in beyond} | named) < 2:
         return [group]
-    found = _by_cores(piping, group, own, _cores(piping, group, own, beyond))
+    cores = sorted(named.union(_cores(piping, group, own, beyond)))
+    found = _by_cores(piping, group, own, cores)
     return [piece for some in found for piece in _cut_at_nipples(piping, some, own)]
 
 
@@ -145,6 +148,28 @@ def _is_whole(piping: Piping, body: int, row: int) -> bool:
     name = piping.roles.names[body]
     may_be = name in (None, piping.given.vocabulary.groups[group].names[0]) or (name == _BODY and along >= 2 * reach)
     return may_be and along >= _WHOLE * 2 * float(ends.radius[row])
+
+
+def _surely_whole(piping: Piping, group: Group) -> set[int]:
+    """The parts of a valve or pump that others, or the labeler for sure, call by the name of the whole: each is one."""
+    labels, whole = piping.given.labels, {"valve", "pump"}.intersection([group.unit_type])
+    said = ((part, labels[part]) for part in group.parts)
+    return {part for part, label in said if label is not None and label.name in whole and not label.likely}
+
+
+def _turned(piping: Piping, group: Group) -> set[int]:
+    """The parts called a valve's body that are the nearest to what turns a valve, by contacts; each turns by itself."""
+    names, inside = piping.roles.names, set(group.parts)
+    bodies = {part for part in group.parts if names[part] == _BODY}
+    if len(bodies) < 2:
+        return set()
+    steps = {body: _steps(body, inside, piping.given.neighbors, bodies - {body}) for body in bodies}
+    found = set()
+    for part in (part for part in group.parts if names[part] in _TURNING):
+        away = sorted((far[part], body) for body, far in steps.items() if part in far)
+        if away and (len(away) == 1 or away[0][0] < away[1][0]):
+            found.add(away[0][1])
+    return found
 
 
 def _halves_beside(piping: Piping, core: int, own: Mapping[int, Sequence[int]]) -> tuple[int, ...]:

@@ -7,8 +7,11 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from cadgraph.geometry.components import connected_sets
 from cadgraph.model.parts import Parts
+from cadgraph.model.scene import Floats
 from cadgraph.model.vocabulary import FASTENERS
 from cadgraph.stages.relate.enclosed import holds_disc
 from cadgraph.stages.relate.line import is_disc
@@ -25,6 +28,8 @@ OPERATORS = frozenset(
 
 # What stands on a vessel is none by itself, and machines have it, too; what drives a pump drives other machines.
 _ON_VESSELS = frozenset({"nozzle", "manway", "saddle", "skirt", "tank leg", "lifting lug"})
+_OF_VESSELS = _ON_VESSELS | {"dished head"}
+_WITHIN, _NEXT_TO = 0.9, 0.02  # share of a box's width within another's outline; how far apart they are at most [m]
 _DRIVES = frozenset({"motor", "motor fan cover", "terminal box", "shaft", "coupling guard", "pump base"})
 _DIALS = frozenset({"gauge face", "gauge needle"})
 _OBLONG = 1.2  # length as share of the width
@@ -144,6 +149,7 @@ def _mended(piping: Piping) -> list[Group]:
         {k: set(group.parts) for k, group in enumerate(groups)},
         {part: k for k, group in enumerate(groups) for part in group.parts},
     )
+    _join_covers(work, piping)
     for _ in range(3):
         changed = _join_odd(work, piping)
         changed |= _join_pieces(work, piping)
@@ -153,6 +159,32 @@ def _mended(piping: Piping) -> list[Group]:
     return sorted(
         (Group(work.types[k], tuple(sorted(parts))) for k, parts in work.parts.items()), key=lambda group: group.parts
     )
+
+
+def _join_covers(work: _Work, piping: Piping) -> None:
+    """Gives heads, nozzles and the like without a vessel to the one that they lie on, or in, untouched: the lid of a
+    coarse tank, a nozzle that ends within the corners of its shell.
+    """
+    tanks, names = [k for k, kind in work.types.items() if kind == "tank"], piping.roles.names
+    covers = [k for k in tanks if all(names[part] in _OF_VESSELS for part in work.parts[k])]
+    boxes = {k: _box(piping.given.parts, work.parts[k]) for k in tanks}
+    for k in covers:
+        homes = [home for home in tanks if home not in covers and _lies_on(boxes[k], boxes[home])]
+        if len(homes) == 1:
+            work.merge(homes[0], [k], None)
+
+
+def _box(parts: Parts, some: Collection[int]) -> Floats:
+    """``(2, 3)`` corners of the box around some parts [m]."""
+    boxes = parts.properties.aabb[sorted(some)]
+    return np.stack([boxes[:, 0].min(axis=0), boxes[:, 1].max(axis=0)])
+
+
+def _lies_on(box: Floats, other: Floats) -> bool:
+    """Whether a box lies within the outline of another one from some side, and in it or next to it."""
+    shared = np.minimum(box[1], other[1]) - np.maximum(box[0], other[0])
+    within = shared >= _WITHIN * (box[1] - box[0])
+    return bool(within.sum() >= 2 and shared.min() >= -_NEXT_TO)
 
 
 def _stands(parts: Collection[int], mounted: Mapping[int, Collection[int]], without: int = -1) -> bool:
