@@ -63,6 +63,15 @@ def test_a_needle_valve_that_a_lever_reaches_to_is_one_of_its_own():
     assert ("G-001", "V-002") in links(graph)
 
 
+def test_a_gearbox_and_its_wheel_turn_one_valve_though_each_is_next_to_another_half_of_its_body():
+    plant = Plant().pipe((-1, 0, 0), (0, 0, 0)).pipe((0.2, 0, 0), (1, 0, 0))
+    for x in (0.05, 0.15):
+        plant.add(turned(shapes.tube(0.08, R, 0.1), (x, 0, 0), X), VALVE, "valve body")
+    plant.add(block((0.03, 0, 0.11), (0.06, 0.06, 0.06)), VALVE, "gearbox")
+    plant.add(turned(shapes.cylinder(0.05, 0.02), (0.11, 0, 0.09), UP), VALVE, "handwheel")
+    assert valves(plant) == 1
+
+
 @pytest.mark.parametrize(("apart", "n"), [(0.066, 2), (0.0, 1)])
 def test_gauges_whose_cases_touch_are_as_many_as_have_a_stem_and_a_case(apart, n):
     plant = Plant().pipe((-1, 0, 0), (0, 0, 0)).add(valve_mesh((0.089, 0, 0)), VALVE, "valve").pipe((0.178, 0, 0), X)

@@ -9,12 +9,14 @@ from itertools import combinations
 
 import numpy as np
 
+from cadgraph.geometry.components import connected_sets
 from cadgraph.model.parts import Parts
 from cadgraph.stages.relate.attach import Attachments, flat_contacts
 from cadgraph.stages.relate.body import arrangement_of
 from cadgraph.stages.relate.flanged import bodies_between
 from cadgraph.stages.relate.joint import Ends, extent_about
 from cadgraph.stages.relate.piping import Group, Piping
+from cadgraph.stages.relate.unit import OPERATORS
 
 __all__ = ["split_groups"]
 
@@ -158,16 +160,20 @@ def _surely_whole(piping: Piping, group: Group) -> set[int]:
 
 
 def _turned(piping: Piping, group: Group) -> set[int]:
-    """The parts called a valve's body that are the nearest to what turns a valve, by contacts; each turns by itself."""
-    names, inside = piping.roles.names, set(group.parts)
+    """The parts called a valve's body that are the nearest to what turns a valve, by contacts; each turns by itself.
+
+    What hangs together turns one of them: a gearbox with its wheel.
+    """
+    names, near = piping.roles.names, piping.given.neighbors
     bodies = {part for part in group.parts if names[part] == _BODY}
+    moving = [part for part in group.parts if names[part] in OPERATORS]
     if len(bodies) < 2:
         return set()
-    steps = {body: _steps(body, inside, piping.given.neighbors, bodies - {body}) for body in bodies}
+    steps = {body: _steps(body, set(group.parts), near, bodies - {body}) for body in bodies}
     found = set()
-    for part in (part for part in group.parts if names[part] in _TURNING):
-        away = sorted((far[part], body) for body, far in steps.items() if part in far)
-        if away and (len(away) == 1 or away[0][0] < away[1][0]):
+    for some in connected_sets(moving, _pairs_within(moving, near)):
+        away = sorted((min(far.get(part, len(group.parts)) for part in some), body) for body, far in steps.items())
+        if away[0][0] < away[1][0] and any(names[part] in _TURNING for part in some):
             found.add(away[0][1])
     return found
 
