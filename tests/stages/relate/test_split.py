@@ -3,7 +3,7 @@
 import pytest
 
 import shapes
-from piping import GAUGE, PIPE, VALVE, Plant, R, gauge_mesh, links, ring, tags, turned, valve_mesh
+from piping import GAUGE, PIPE, VALVE, Plant, R, gauge_mesh, links, merged, ring, tags, turned, valve_mesh
 from sketch import UP, X, block
 
 
@@ -68,7 +68,8 @@ def test_a_gearbox_and_its_wheel_turn_one_valve_though_each_is_next_to_another_h
     for x in (0.05, 0.15):
         plant.add(turned(shapes.tube(0.08, R, 0.1), (x, 0, 0), X), VALVE, "valve body")
     plant.add(block((0.03, 0, 0.11), (0.06, 0.06, 0.06)), VALVE, "gearbox")
-    plant.add(turned(shapes.cylinder(0.05, 0.02), (0.11, 0, 0.09), UP), VALVE, "handwheel")
+    rod, foot = block((0.11, 0, 0.12), (0.1, 0.02, 0.02)), block((0.15, 0, 0.1), (0.02, 0.02, 0.044))
+    plant.add(merged(rod, foot), VALVE, "handwheel")
     assert valves(plant) == 1
 
 
