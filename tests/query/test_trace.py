@@ -156,7 +156,8 @@ def test_a_flow_meter_on_a_tap_of_its_run_has_enough_lines_and_one_at_the_end_of
     nodes = [unit("T-001"), unit("G-001", "flow meter", ports=("N1",)), unit("T-002")]
     through = trace(network(nodes, chain("T-001 G-001.N1 T-002")), "T-001")
     assert through.doubts == ()
-    assert [doubt.name for doubt in trace(network(nodes, chain("T-001 G-001.N1")), "T-001").doubts] == ["G-001"]
+    doubted = trace(network(nodes, chain("T-001 G-001.N1")), "T-001").doubts
+    assert [doubt.name for doubt in doubted] == ["T-001", "G-001"], "the tank has no line but to an instrument"
 
 
 def test_where_no_way_is_found_what_may_be_missing_on_both_sides_is_told():

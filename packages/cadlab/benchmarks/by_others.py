@@ -1,6 +1,7 @@
-"""Plants by others, with embedded and with true labels: ``python packages/cadlab/benchmarks/by_others.py FOLDER...``
+"""Plants by others, with embedded and with true labels: ``python packages/cadlab/benchmarks/by_others.py [FOLDER...]``
 
-Each FOLDER holds plants as ``NAME/scene.*`` with ``NAME/scene.truth.json`` (docs/truth.md), or is such a plant itself.
+Each FOLDER holds plants as ``NAME/scene.*`` with ``NAME/scene.truth.json`` (docs/truth.md), or is such a plant itself;
+without any it is that of the eight plants beside this file. ``--write`` puts the table into ``docs/functional.md``.
 A row for each plant and mode, and one for all: parts with a true name but for fasteners; units that are there with
 their type, and units that are none; pairs of neighbours along the pipes that are right, and that are none; directions;
 kinds of valves; and answers of ``isolate`` that close a check, control or relief valve or say that something is shut
@@ -16,7 +17,7 @@ from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
-from isolation import MODES, Tally
+from isolation import MODES, PAGE, Tally
 
 from cadgraph import load
 from cadgraph.model.given_labels import GivenLabel
@@ -25,12 +26,13 @@ from cadgraph.pipeline import build
 from cadlab.evaluate.evaluation import evaluate
 from cadlab.evaluate.labels import observe_parts
 from cadlab.evaluate.pairing import pair
-from cadlab.markdown import table
+from cadlab.markdown import put, table
 
+OTHERS = Path(__file__).with_name("others")
 FASTENERS = frozenset({"bolt", "nut", "washer", "stud", "screw"})
 TITLES = [
     "plant", "labels", "parts", "group right", "name right", "wrong / open", "units / right / none",
-    "connections / right / none", "directions / right / wrong", "kinds right / wrong", "unsafe",
+    "connections / right / none", "directions / right / wrong", "kinds right / wrong", "unsafe answers",
 ]  # fmt: skip
 
 
@@ -105,8 +107,9 @@ def line(name: str, mode: str, n: Counter[str]) -> list[object]:
 def main() -> None:
     """Runs from the command line."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folders", nargs="+", type=Path, metavar="FOLDER")
+    parser.add_argument("folders", nargs="*", type=Path, metavar="FOLDER", default=[OTHERS])
     parser.add_argument("--modes", nargs="+", default=list(MODES), choices=list(MODES))
+    parser.add_argument("--write", action="store_true", help="put the table into docs/functional.md")
     parser.add_argument("--workers", type=int, default=2)
     options = parser.parse_args()
     plants = [plant for folder in options.folders for plant in plants_in(folder)]
@@ -118,7 +121,10 @@ def main() -> None:
             totals[mode].update(counts)
             rows.append(line(plant.name, mode, counts))
     rows += [line("all", mode, total) for mode, total in totals.items()]
-    print("\n".join(table(TITLES, rows, True)))
+    text = "\n".join(table(TITLES, rows, True))
+    print(text)
+    if options.write:
+        PAGE.write_text(put(PAGE.read_text(encoding="utf-8"), "others", text), encoding="utf-8")
 
 
 if __name__ == "__main__":

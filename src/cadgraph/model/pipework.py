@@ -19,6 +19,7 @@ Flow = Literal["along", "against", "unknown"]
 Direction = Literal["downstream", "upstream"]
 Place = Unit | Junction | Terminal
 
+_FILLED = frozenset({"tank", "pump", "equipment"})  # what holds or moves what is in the lines
 _WIDEST_TAP = 80  # DN; instruments are tapped by 15 to 50, level transmitters with a remote seal by up to 80
 
 
@@ -273,11 +274,14 @@ class Pipework:
     def ports_in_use(self, place: str) -> int:
         """How many ports of a unit have a line; a connection that names no port counts as a port of its own.
 
-        A gauge that sits on a tap of a run stands in it by one port with two connections, which count each.
+        A gauge that sits on a tap of a run stands in it by one port with two connections, which count each. What leads
+        from a vessel or a machine to nothing but an instrument is no line of it.
         """
         arcs = self.arcs(place)
         if self.is_gauge(place):
             return len(arcs)
+        if self.unit_type(place) in _FILLED:
+            arcs = tuple(arc for arc in arcs if not self.is_tap(arc))
         named = {arc.start_port for arc in arcs if arc.start_port is not None}
         return len(named) + sum(arc.start_port is None for arc in arcs)
 

@@ -8,7 +8,7 @@ from typing import Literal
 from cadgraph.model.records import Unit
 from cadgraph.query.network import Network
 
-__all__ = ["Duty", "Suspect", "blocked_relief", "duty_of", "likely_kinds", "suspect_of", "worked_by_hand"]
+__all__ = ["Duty", "Suspect", "blocked_relief", "duty_of", "is_doubted", "likely_kinds", "suspect_of", "worked_by_hand"]
 
 Duty = Literal["shuts off", "likely", "unknown", "check", "relief", "control", "other"]
 """``likely``: its kind is open, but all that it may be shuts off; ``other``: a kind that isn't known to shut off."""
@@ -53,6 +53,17 @@ def duty_of(network: Network, place: str) -> Duty | None:
             return "unknown"
         sure += confidence
     return "likely" if sure >= _SURE else "unknown"
+
+
+def is_doubted(network: Network, place: str) -> bool:
+    """Whether nobody is sure of any part of a valve that it is one's: what stands there may be something else.
+
+    Args:
+        network: of a finished graph.
+        place: id of a valve.
+    """
+    labels = [network.graph.part(part).label for part in network.places[place].parts]
+    return all(label is None or label.likely or label.source == "network" for label in labels)
 
 
 def likely_kinds(network: Network, place: str) -> str:

@@ -9,7 +9,7 @@ from cadgraph._io.text import tag_key
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Terminal
 from cadgraph.query.doubt import Doubt, few_ports, open_sides
-from cadgraph.query.duty import blocked_relief, duty_of, likely_kinds, suspect_of, worked_by_hand
+from cadgraph.query.duty import blocked_relief, duty_of, is_doubted, likely_kinds, suspect_of, worked_by_hand
 from cadgraph.query.lines import find_lines
 from cadgraph.query.network import Network
 from cadgraph.query.section import Reached, Rules, Section, close_off, is_source
@@ -19,6 +19,7 @@ __all__ = ["Closing", "Isolation", "Opening", "Passed", "find_isolation"]
 PASSED_OVER = "is a check valve: passed over"
 
 
+_AS_VALVE = "taken for a valve, but nobody is sure of any part of it: a filter or a meter may look so"
 _AS_RELIEF = (
     "taken for a relief valve and so for closed, yet it has a lever or wheel and no line behind it: were it a hand "
     "valve to the open, it would have to be closed, too"
@@ -269,6 +270,11 @@ def _assumed(network: Network, section: Section) -> list[Doubt]:
         Doubt(place, network.name(place), f"{_unknown(network, place)}; taken for a shut-off valve as asked")
         for place in section.nearest
         if place in section.needed and duty_of(network, place) == "unknown"
+    ]
+    unknown += [
+        Doubt(place, network.name(place), _AS_VALVE)
+        for place in section.nearest
+        if place in section.needed and duty_of(network, place) != "unknown" and is_doubted(network, place)
     ]
     reliefs = [place for place in section.nearest if _is_closed_relief(network, section, place)]
     doubted = [
