@@ -151,17 +151,18 @@ def _with_valves(
 
 def _pieces(piping: Piping, beliefs: Beliefs) -> list[_Piece]:
     """Straight pieces both of whose ends join others: pairs of cones, then single parts."""
+    valves = {held for group in piping.groups if group.unit_type == "valve" for held in group.parts}
     single = [
         piece
         for part, line in sorted(piping.lines.items())
-        if beliefs.open[part] and (piece := _straight(piping, part, line)) is not None
+        if beliefs.open[part] and (piece := _straight(piping, part, line, valves)) is not None
     ]
     return [*_cones(piping, beliefs), *single]
 
 
-def _straight(piping: Piping, part: int, line: Centreline) -> _Piece | None:
-    """A part whose two joined ends lie on one axis, no farther apart than those of a valve."""
-    rows = _passing_rows(piping, part)
+def _straight(piping: Piping, part: int, line: Centreline, valves: Collection[int]) -> _Piece | None:
+    """A part whose two joined ends lie on one axis, no farther apart than those of a valve; ``valves``: their parts."""
+    rows = _passing_rows(piping, part, valves)
     if len(rows) != 2:
         return None
     piece = _piece(piping, (part,), (rows[0], rows[1]), 1.0)
@@ -173,13 +174,12 @@ def _straight(piping: Piping, part: int, line: Centreline) -> _Piece | None:
     return replace(piece, waist=waist if narrows else 1.0, thicker=thicker)
 
 
-def _passing_rows(piping: Piping, part: int) -> list[int]:
+def _passing_rows(piping: Piping, part: int, valves: Collection[int]) -> list[int]:
     """The joined ends of a part; of more than two those that don't end at a valve: the neck that its yoke stands on."""
     found = piping.joints
     rows = [row for row in found.ends.of_part.get(part, ()) if row in found.made and found.made[row].kind != "sleeve"]
     if len(rows) <= 2:
         return rows
-    valves = {held for group in piping.groups if group.unit_type == "valve" for held in group.parts}
     return [row for row in rows if found.made[row].kind != "mount" or found.made[row].other not in valves]
 
 

@@ -99,7 +99,8 @@ def recover_units(piping: Piping) -> Piping:
     mounted = frozenset(piping.mounted)
     # Rows of ends hold for the piping that they were found in: all is looked at before anything changes.
     sights = [_look_at(piping, beliefs, body, ends, mounted) for body in bodies]
-    sights = [_with_others_apart(piping, beliefs, sight, ends) for sight in sights]
+    owner = {part: group for group in piping.groups for part in group.parts}
+    sights = [_with_others_apart(piping, beliefs, sight, ends, owner) for sight in sights]
     for sight in sights:
         piping = _taken(piping, sight.body, *_type_of(piping, beliefs, sight))
     return take_feet(take_meters(piping, beliefs), beliefs)
@@ -152,12 +153,14 @@ def _look_at(piping: Piping, beliefs: Beliefs, body: Body, ends: Ends, mounted: 
     )
 
 
-def _with_others_apart(piping: Piping, beliefs: Beliefs, sight: _Sight, ends: Ends) -> _Sight:
+def _with_others_apart(
+    piping: Piping, beliefs: Beliefs, sight: _Sight, ends: Ends, owner: Mapping[int, Group]
+) -> _Sight:
     """A body without those units in it that are far likelier themselves than pieces of it: the gauge on a boiler."""
     body = sight.body
     kind, _ = _type_of(piping, beliefs, sight)
     own = _groups_of(piping, kind)
-    held = [g for g in piping.groups if g.unit_type != kind and set(body.parts).issuperset(g.parts)] if own else []
+    held = {owner[part] for part in body.parts if part in owner and owner[part].unit_type != kind} if own else set()
     apart = {part for group in held if _is_far_likelier(piping, beliefs, group, own) for part in group.parts}
     rest = tuple(part for part in body.parts if part not in apart)
     mounts = tuple(mount for mount in body.mounts if mount.part not in apart)

@@ -57,11 +57,10 @@ def _may_stand(piping: Piping, unit: UnitParts, side: Side, leading: Sequence[in
     if len(leading) > 1 or side.tap.gap > _ON or piping.roles.names[side.solid] in OPERATORS:
         return False
     ends = piping.joints.ends
-    carrying = piping.solids.union(piping.lines).difference(unit.parts)
-    touched = {other for part in unit.parts for other in piping.given.neighbors.get(part, ())} & carrying
-    return touched <= {side.part, *(int(ends.part[row]) for row in leading)} and all(
-        _heads_for(ends, row, side) for row in leading
-    )
+    known = {side.part, *unit.parts, *(int(ends.part[row]) for row in leading)}
+    around = {other for part in unit.parts for other in piping.given.neighbors.get(part, ())} - known
+    alone = not any(other in piping.solids or other in piping.lines for other in around)
+    return alone and all(_heads_for(ends, row, side) for row in leading)
 
 
 def _heads_for(ends: Ends, row: int, side: Side) -> bool:
