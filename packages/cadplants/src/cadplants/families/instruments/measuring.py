@@ -9,7 +9,6 @@ from cadplants.families.instruments.heat import HEAT_BUILDS
 from cadplants.families.instruments.level import LEVEL_BUILDS
 from cadplants.families.instruments.panel import PANEL_BUILDS
 from cadplants.families.instruments.plain import PLAIN_INSTRUMENTS
-from cadplants.families.instruments.plain_meters import PLAIN_METERS
 from cadplants.families.instruments.pressure import PRESSURE_BUILDS
 from cadplants.families.instruments.sight import SIGHT_BUILDS
 from cadplants.families.instruments.siphons import SIPHONS
@@ -28,6 +27,5 @@ MEASURING: tuple[Family, ...] = (
     *COUNTER_BUILDS,
     *SIGHT_BUILDS,
     *PLAIN_INSTRUMENTS,
-    *PLAIN_METERS,
 )
 """The families of devices and structures that an assortment draws from."""

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from cadplants.families.machines.plain_compressors import PLAIN_COMPRESSORS
 from cadplants.families.machines.plain_hygienic import PLAIN_HYGIENIC
-from cadplants.families.machines.plain_metering import PLAIN_METERING
 from cadplants.families.machines.plain_pumps import PLAIN_PUMPS
 from cadplants.families.machines.plain_small import PLAIN_SMALL
 from cadplants.families.machines.plain_upright import PLAIN_UPRIGHT
@@ -12,6 +11,4 @@ from cadplants.model.family import Family
 
 __all__ = ["PLAIN_MACHINES"]
 
-PLAIN_MACHINES: tuple[Family, ...] = (
-    *PLAIN_PUMPS, *PLAIN_UPRIGHT, *PLAIN_HYGIENIC, *PLAIN_SMALL, *PLAIN_COMPRESSORS, *PLAIN_METERING,
-)  # fmt: skip
+PLAIN_MACHINES: tuple[Family, ...] = (*PLAIN_PUMPS, *PLAIN_UPRIGHT, *PLAIN_HYGIENIC, *PLAIN_SMALL, *PLAIN_COMPRESSORS)

@@ -12,7 +12,6 @@ from cadplants.families.piping.flexible import FLEXIBLES
 from cadplants.families.piping.hose import HOSES
 from cadplants.families.piping.hose_coupling import HOSE_COUPLINGS
 from cadplants.families.piping.hygienic import HYGIENIC
-from cadplants.families.piping.plain_inline import PLAIN_INLINE
 from cadplants.families.piping.reducer import REDUCERS
 from cadplants.families.piping.strainer import STRAINERS
 from cadplants.families.piping.union import UNIONS
@@ -34,5 +33,4 @@ PIPEWORK: tuple[Family, ...] = (
     *HYGIENIC,
     *HOSE_COUPLINGS,
     *CLAMP_SADDLES,
-    *PLAIN_INLINE,
 )

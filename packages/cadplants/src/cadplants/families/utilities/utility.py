@@ -6,7 +6,6 @@ from cadplants.families.utilities.fire import FIRE
 from cadplants.families.utilities.hydrant import HYDRANTS
 from cadplants.families.utilities.light import LIGHTS
 from cadplants.families.utilities.panel import PANELS
-from cadplants.families.utilities.plain_boxes import PLAIN_BOXES
 from cadplants.families.utilities.tray import TRAYS
 from cadplants.families.utilities.view import VIEWS
 from cadplants.families.utilities.wiring import WIRING
@@ -14,4 +13,4 @@ from cadplants.model.family import Family
 
 __all__ = ["UTILITIES"]
 
-UTILITIES: tuple[Family, ...] = (*TRAYS, *WIRING, *PANELS, *LIGHTS, *VIEWS, *FIRE, *HYDRANTS, *PLAIN_BOXES)
+UTILITIES: tuple[Family, ...] = (*TRAYS, *WIRING, *PANELS, *LIGHTS, *VIEWS, *FIRE, *HYDRANTS)

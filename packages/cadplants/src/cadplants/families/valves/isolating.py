@@ -8,7 +8,6 @@ from cadplants.families.valves.disc import DISCS
 from cadplants.families.valves.gate import GATES
 from cadplants.families.valves.globe import GLOBES
 from cadplants.families.valves.lining import LININGS
-from cadplants.families.valves.plain_bodies import PLAIN_BODIES
 from cadplants.families.valves.plug import PLUGS
 from cadplants.families.valves.sluice import SLUICES
 from cadplants.families.valves.union import UNIONS
@@ -16,6 +15,4 @@ from cadplants.model.family import Family
 
 __all__ = ["ISOLATING"]
 
-ISOLATING: tuple[Family, ...] = (
-    *GATES, *SLUICES, *GLOBES, *CONTROLS, *BALLS, *UNIONS, *DISCS, *LININGS, *PLUGS, *PLAIN_BODIES,
-)  # fmt: skip
+ISOLATING: tuple[Family, ...] = (*GATES, *SLUICES, *GLOBES, *CONTROLS, *BALLS, *UNIONS, *DISCS, *LININGS, *PLUGS)

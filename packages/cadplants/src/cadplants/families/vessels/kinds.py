@@ -10,7 +10,6 @@ from cadplants.families.vessels.exchangers import EXCHANGERS
 from cadplants.families.vessels.filters import FILTERS
 from cadplants.families.vessels.plain_boilers import PLAIN_BOILERS
 from cadplants.families.vessels.plain_dryers import PLAIN_DRYERS
-from cadplants.families.vessels.plain_filters import PLAIN_FILTERS
 from cadplants.families.vessels.plate_stack import PLATE_STACKS
 from cadplants.families.vessels.plate_tanks import PLATE_TANKS
 from cadplants.families.vessels.pressure_vessels import PRESSURE_VESSELS
@@ -38,5 +37,4 @@ KINDS_OF_VESSELS: tuple[Family, ...] = (
     *PLAIN_DRYERS,
     *PLAIN_BOILERS,
     *DOSING_TANKS,
-    *PLAIN_FILTERS,
 )
