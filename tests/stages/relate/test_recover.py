@@ -249,3 +249,9 @@ def test_a_gauge_on_a_body_without_a_name_stays_one_where_it_is_far_likelier_tha
     groups = {part: group.unit_type for group in recover_units(sketch.piping()).groups for part in group.parts}
     assert groups[0] == "tank"
     assert groups[gauge] == ("gauge" if apart else "tank")
+
+
+@pytest.mark.parametrize(("sides", "kind"), [("aligned", "gauge"), ("one", None)])
+def test_a_meter_in_a_line_may_be_longer_than_a_gauge_at_its_end(sides, kind):
+    sketch = around((0.5, 0.2, 0.2), sides, radius=1.4 * R, likely={(GAUGE, "flow meter"): 0.6, (VALVE, "valve"): 0.12})
+    assert found(sketch) == kind

@@ -76,7 +76,7 @@ _FAR = 8.0  # a unit that is so many times likelier itself than a piece of a bod
 _APART = 2.0  # what is so many times likelier something else is no piece of the unit that it is flanged to
 _MOSTLY_NAMED = 0.5  # below this share of parts that only the labeler has named what has no name is no device
 _STANDING = 0.5  # log-odds that what has the ends of lines at it carries them
-_WIDEST_GAUGE = 0.4  # m
+_WIDEST_GAUGE = 0.4  # m; a meter in a line may be longer
 _FLAT, _AS_WIDE = 0.6, 0.85  # a lid's thickness as share of its radius, and its radius as share of the end's
 # Names of connectors that two ends on one axis of a body contradict: each would have a line of its own there.
 _BENT = frozenset({"cross", "tee", "elbow", "pipe cap", "blind flange"})
@@ -249,7 +249,7 @@ def _terms(piping: Piping, beliefs: Beliefs, sight: _Sight) -> dict[str, list[Te
         terms[_STEELWORK] = [("it may carry them", _STANDING), labelled(other_groups(piping))]
     for kind, effect in ARRANGEMENT[sight.arrangement].items():
         groups = _groups_of(piping, kind)
-        if groups and (kind != "gauge" or sight.length <= _WIDEST_GAUGE):
+        if groups and (kind != "gauge" or sight.length <= _WIDEST_GAUGE or sight.arrangement == "aligned"):
             terms[kind] = [
                 (_ENDS[sight.arrangement], effect),
                 (SIZE[kind].says.format(sight.pipes), float(SIZE[kind](sight.pipes))),
