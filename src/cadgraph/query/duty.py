@@ -56,14 +56,15 @@ def duty_of(network: Network, place: str) -> Duty | None:
 
 
 def is_doubted(network: Network, place: str) -> bool:
-    """Whether nobody is sure of any part of a valve that it is one's: what stands there may be something else.
+    """Whether parts of a valve have labels and nobody is sure of any: what stands there may be something else.
 
     Args:
         network: of a finished graph.
         place: id of a valve.
     """
-    labels = [network.graph.part(part).label for part in network.places[place].parts]
-    return all(label is None or label.likely or label.source == "network" for label in labels)
+    found = (network.graph.part(part).label for part in network.places[place].parts)
+    labels = [label for label in found if label is not None]
+    return bool(labels) and all(label.likely or label.source == "network" for label in labels)
 
 
 def likely_kinds(network: Network, place: str) -> str:

@@ -82,7 +82,7 @@ def recover_inline(piping: Piping, beliefs: Beliefs, likelihood: Curve) -> Pipin
     if not valves:
         return piping
     likely = beliefs.of_groups(valves)
-    others, devices = _rivals(piping, beliefs), likely_devices(piping, beliefs)
+    others, devices = _rivals(piping, beliefs), set(np.flatnonzero(likely_devices(piping, beliefs)).tolist())
     taken: set[int] = set()
     groups: list[Group] = []
     recovered = dict(piping.recovered)
@@ -93,9 +93,8 @@ def recover_inline(piping: Piping, beliefs: Beliefs, likelihood: Curve) -> Pipin
         rival = None if other < max(_RIVAL, share) else float(likelihood(np.log(other))) - said[1]
         if _judged(piece, tuple(_ON_IT), said, rival).sure < _SURE:
             continue
-        on_it = {"stem": _stems(piping, beliefs, piece), "operator": _operators(piping, piece)}
-        seen = [kind for kind, parts in on_it.items() if parts]
-        found = _judged(piece, [*seen, *(["device"] if devices[list(piece.parts)].all() else [])], said, rival)
+        on_it = _on_it(piping, beliefs, piece, devices)
+        found = _judged(piece, [kind for kind, parts in on_it.items() if parts], said, rival)
         if found.sure < _SURE or not taken.isdisjoint(piece.parts):
             continue
         parts = tuple(sorted({*piece.parts}.union(*on_it.values()) - taken))
@@ -280,6 +279,16 @@ def _along(points: Floats, axis: Floats) -> bool:
     """Whether a branch runs along an axis."""
     chord = points[-1] - points[0]
     return bool(abs(float(chord @ axis)) >= -_ALIGNED * float(np.linalg.norm(chord)))
+
+
+def _on_it(piping: Piping, beliefs: Beliefs, piece: _Piece, devices: Collection[int]) -> dict[str, set[int]]:
+    """The parts of and on a piece that speak for a valve, by keys of ``INLINE``; ``devices``: what is likely one."""
+    likely = set(piece.parts).intersection(devices)
+    return {
+        "stem": _stems(piping, beliefs, piece),
+        "operator": _operators(piping, piece),
+        "device": likely if len(likely) == len(piece.parts) else set(),
+    }
 
 
 def _stems(piping: Piping, beliefs: Beliefs, piece: _Piece) -> set[int]:

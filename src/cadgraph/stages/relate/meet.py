@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
 
 import numpy as np
 
@@ -17,7 +17,6 @@ __all__ = ["meet_directly"]
 _DEEP = 0.6  # of their width units run into each other where they are drawn without care for it (share)
 _SCREWED = 0.002  # a gauge is screwed into what is this near [m]; threads are drawn with play
 _AT = frozenset({"valve", "pump", "equipment"})  # what gauges are screwed into; at a tank they may but lean
-_ENDS = frozenset({"gauge", "valve"})  # what may be screwed into a device
 
 
 def meet_directly(
@@ -96,23 +95,24 @@ def _free_units(
     """The parts of the gauges and valves that neither a line nor a flange holds; valves touch just one device."""
     owner = owners_of(units)
     held = {owner.get(part) for pair in joined for part in pair} | {owner.get(part) for part in piping.mounted}
-    held = held.union(standing)
-    around: dict[int, set[int]] = {}
+    around = _around(pairs, owner)
+    free = set(range(len(units))) - held - set(standing)
+    return {part for k in free if _is_end(piping, units[k], around.get(k, ())) for part in units[k].parts}
+
+
+def _around(pairs: Collection[tuple[int, int]], owner: Mapping[int, int]) -> dict[int, set[int]]:
+    """The units, or solids that are none, that each unit touches."""
+    found: dict[int, set[int]] = {}
     for a, b in pairs:
         for part, other in ((a, b), (b, a)):
-            around.setdefault(owner.get(part, -1), set()).add(owner.get(other, -1 - other))
-    free = [
-        unit
-        for number, unit in enumerate(units)
-        if unit.unit_type in _ENDS
-        and number not in held
-        and (unit.unit_type == "gauge" or _alone(piping, unit, around.get(number, ())))
-    ]
-    return {part for unit in free for part in unit.parts}
+            found.setdefault(owner.get(part, -1), set()).add(owner.get(other, -1 - other))
+    return found
 
 
-def _alone(piping: Piping, unit: UnitParts, around: Collection[int]) -> bool:
-    """Whether a unit touches one device, and no line."""
+def _is_end(piping: Piping, unit: UnitParts, around: Collection[int]) -> bool:
+    """Whether a unit may be screwed into a device: a gauge, or a valve that touches one device and no line."""
+    if unit.unit_type != "valve":
+        return unit.unit_type == "gauge"
     return len(around) == 1 and not any(piping.lines_near(part) for part in unit.parts)
 
 

@@ -76,7 +76,7 @@ _FAR = 8.0  # a unit that is so many times likelier itself than a piece of a bod
 _APART = 2.0  # what is so many times likelier something else is no piece of the unit that it is flanged to
 _MOSTLY_NAMED = 0.5  # below this share of parts that only the labeler has named what has no name is no device
 _STANDING = 0.5  # log-odds that what has the ends of lines at it carries them
-_WIDEST_GAUGE = 0.4  # m; a meter in a line may be longer
+_WIDEST_GAUGE = 0.4  # m
 _FLAT, _AS_WIDE = 0.6, 0.85  # a lid's thickness as share of its radius, and its radius as share of the end's
 # Names of connectors that two ends on one axis of a body contradict: each would have a line of its own there.
 _BENT = frozenset({"cross", "tee", "elbow", "pipe cap", "blind flange"})
@@ -159,21 +159,25 @@ def _with_others_apart(
     """A body without those units in it that are far likelier themselves than pieces of it: the gauge on a boiler."""
     body = sight.body
     kind, _ = _type_of(piping, beliefs, sight)
-    own = _groups_of(piping, kind)
-    held = {owner[part] for part in body.parts if part in owner and owner[part].unit_type != kind} if own else set()
-    apart = {part for group in held if _is_far_likelier(piping, beliefs, group, own) for part in group.parts}
-    rest = tuple(part for part in body.parts if part not in apart)
-    mounts = tuple(mount for mount in body.mounts if mount.part not in apart)
-    if not apart or not rest or not mounts:
-        return sight
-    touched = {other for part in rest for other in piping.given.neighbors.get(part, ())} & apart
-    kept = None if body.unit_type in {group.unit_type for group in held} else body.unit_type
-    near = tuple(sorted(touched.union(body.near)))
-    return _look_at(piping, beliefs, Body(rest, mounts, near, kept), ends, sight.mounted)
+    held = {owner[part] for part in body.parts if part in owner and owner[part].unit_type != kind}
+    apart = {group for group in held if _is_far_likelier(piping, beliefs, group, _groups_of(piping, kind))}
+    less = _without(piping, body, apart)
+    return _look_at(piping, beliefs, less, ends, sight.mounted) if apart and less.parts and less.mounts else sight
+
+
+def _without(piping: Piping, body: Body, units: Collection[Group]) -> Body:
+    """A body without some units in it, which it touches then."""
+    gone, types = {part for group in units for part in group.parts}, {group.unit_type for group in units}
+    rest = tuple(sorted(set(body.parts) - gone))
+    near = gone.intersection(other for part in rest for other in piping.given.neighbors.get(part, ()))
+    mounts = tuple(mount for mount in body.mounts if mount.part not in gone)
+    return Body(rest, mounts, tuple(sorted(near.union(body.near))), None if body.unit_type in types else body.unit_type)
 
 
 def _is_far_likelier(piping: Piping, beliefs: Beliefs, group: Group, other: Collection[str]) -> bool:
-    """Whether a unit is likely, and many times likelier than that it is of some other groups."""
+    """Whether a unit is likely, and many times likelier than that it is of some other groups; not if there are none."""
+    if not other:
+        return False
     parts = list(group.parts)
     said = float(beliefs.of_groups(_groups_of(piping, group.unit_type))[parts].mean())
     return said >= _LIKELY and said >= _FAR * float(beliefs.of_groups(other)[parts].mean())
@@ -249,7 +253,7 @@ def _terms(piping: Piping, beliefs: Beliefs, sight: _Sight) -> dict[str, list[Te
         terms[_STEELWORK] = [("it may carry them", _STANDING), labelled(other_groups(piping))]
     for kind, effect in ARRANGEMENT[sight.arrangement].items():
         groups = _groups_of(piping, kind)
-        if groups and (kind != "gauge" or sight.length <= _WIDEST_GAUGE or sight.arrangement == "aligned"):
+        if groups and (kind != "gauge" or _may_be_gauge(beliefs, sight)):
             terms[kind] = [
                 (_ENDS[sight.arrangement], effect),
                 (SIZE[kind].says.format(sight.pipes), float(SIZE[kind](sight.pipes))),
@@ -257,6 +261,11 @@ def _terms(piping: Piping, beliefs: Beliefs, sight: _Sight) -> dict[str, list[Te
                 *_further(piping, sight, kind),
             ]
     return terms
+
+
+def _may_be_gauge(beliefs: Beliefs, sight: _Sight) -> bool:
+    """Whether a body is as small as gauges are; a meter in a line may be longer, where people have not named most."""
+    return sight.length <= _WIDEST_GAUGE or (sight.arrangement == "aligned" and not _is_named(beliefs))
 
 
 def _further(piping: Piping, sight: _Sight, kind: str) -> Iterator[Term]:

@@ -55,7 +55,7 @@ def _split(piping: Piping, group: Group, own: Mapping[int, Sequence[int]]) -> li
     gauges = _by_stems(piping, group, beyond) if group.unit_type == "gauge" else []
     if gauges:
         return gauges
-    named = {part for few in (_surely_whole(piping, group), _turned(piping, group)) if len(few) > 1 for part in few}
+    named = _named(piping, group, own)
     if group.unit_type not in _SPLIT or not own or len(own.keys() | {a for a, _ in beyond} | named) < 2:
         return [group]
     cores = sorted(named.union(_cores(piping, group, own, beyond)))
@@ -152,11 +152,30 @@ def _is_whole(piping: Piping, body: int, row: int) -> bool:
     return may_be and along >= _WHOLE * 2 * float(ends.radius[row])
 
 
-def _surely_whole(piping: Piping, group: Group) -> set[int]:
-    """The parts of a valve or pump that others, or the labeler for sure, call by the name of the whole: each is one."""
-    labels, whole = piping.given.labels, {"valve", "pump"}.intersection([group.unit_type])
-    said = ((part, labels[part]) for part in group.parts)
-    return {part for part, label in said if label is not None and label.name in whole and not label.likely}
+def _named(piping: Piping, group: Group, own: Mapping[int, Sequence[int]]) -> set[int]:
+    """The parts that are devices of their own by their names, where there are several such."""
+    found = (_surely_whole(piping, group, own), _turned(piping, group))
+    return {part for some in found if len(some) > 1 for part in some}
+
+
+def _surely_whole(piping: Piping, group: Group, own: Mapping[int, Sequence[int]]) -> set[int]:
+    """The parts of a valve or pump that others, or the labeler for sure, call by the name of the whole: each is one.
+
+    None where others are called its pieces, but for what moves a valve; a whole at which no line ends is screwed into
+    another one, and between two it is a piece.
+    """
+    whole, near = {"valve", "pump"}.intersection([group.unit_type]), set(group.parts)
+    found = {part for part in group.parts if _is_called(piping, part, whole)}
+    rest = {piping.roles.names[part] for part in near - found}
+    if not rest <= OPERATORS - {"valve stem"}:
+        return set()
+    return {part for part in found if part in own or len(near.intersection(piping.given.neighbors.get(part, ()))) == 1}
+
+
+def _is_called(piping: Piping, part: int, names: Collection[str]) -> bool:
+    """Whether others call a part by one of some names, or the labeler does for sure."""
+    label = piping.given.labels[part]
+    return label is not None and label.name in names and not label.likely
 
 
 def _turned(piping: Piping, group: Group) -> set[int]:
@@ -165,17 +184,27 @@ def _turned(piping: Piping, group: Group) -> set[int]:
     What hangs together turns one of them: a gearbox with its wheel.
     """
     names, near = piping.roles.names, piping.given.neighbors
-    bodies = {part for part in group.parts if names[part] == _BODY}
-    moving = [part for part in group.parts if names[part] in OPERATORS]
+    bodies = [part for part in group.parts if names[part] == _BODY]
     if len(bodies) < 2:
         return set()
-    steps = {body: _steps(body, set(group.parts), near, bodies - {body}) for body in bodies}
-    found = set()
-    for some in connected_sets(moving, _pairs_within(moving, near)):
-        away = sorted((min(far.get(part, len(group.parts)) for part in some), body) for body, far in steps.items())
-        if away[0][0] < away[1][0] and any(names[part] in _TURNING for part in some):
-            found.add(away[0][1])
-    return found
+    steps = _steps_from(bodies, group, near)
+    moving = [part for part in group.parts if names[part] in OPERATORS]
+    together = connected_sets(moving, _pairs_within(moving, near))
+    turning = [some for some in together if {names[part] for part in some} & _TURNING]
+    return {body for some in turning for body in _nearest(some, steps, len(group.parts))}
+
+
+def _steps_from(cores: Sequence[int], group: Group, near: Mapping[int, Sequence[int]]) -> dict[int, dict[int, int]]:
+    """Contacts from each of some cores of a group to each part, not through the other cores."""
+    inside = set(group.parts)
+    return {core: _steps(core, inside, near, set(cores) - {core}) for core in cores}
+
+
+def _nearest(some: Sequence[int], steps: Mapping[int, Mapping[int, int]], most: int) -> list[int]:
+    """The one of several bodies that is the fewest contacts away from some parts; none where two are as near."""
+    away = {body: min(far.get(part, most) for part in some) for body, far in steps.items()}
+    nearest = [body for body, contacts in away.items() if contacts == min(away.values())]
+    return nearest if len(nearest) == 1 else []
 
 
 def _halves_beside(piping: Piping, core: int, own: Mapping[int, Sequence[int]]) -> tuple[int, ...]:
@@ -312,12 +341,11 @@ def _divide(piping: Piping, group: Group, cores: Sequence[int]) -> list[Group]:
     core, in their order.
     """
     centers = piping.given.parts.properties.obb_center
-    inside = set(group.parts)
-    steps = {core: _steps(core, inside, piping.given.neighbors, set(cores) - {core}) for core in cores}
+    steps = _steps_from(cores, group, piping.given.neighbors)
     members: dict[int, list[int]] = {core: [] for core in cores}
     for part in group.parts:
         ranked = sorted(
-            (steps[core].get(part, len(inside)), float(np.linalg.norm(centers[part] - centers[core])), core)
+            (steps[core].get(part, len(group.parts)), float(np.linalg.norm(centers[part] - centers[core])), core)
             for core in cores
         )
         members[ranked[0][2]].append(part)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 
 import numpy as np
 
@@ -57,10 +57,14 @@ def _may_stand(piping: Piping, unit: UnitParts, side: Side, leading: Sequence[in
     if len(leading) > 1 or side.tap.gap > _ON or piping.roles.names[side.solid] in OPERATORS:
         return False
     ends = piping.joints.ends
-    known = {side.part, *unit.parts, *(int(ends.part[row]) for row in leading)}
-    around = {other for part in unit.parts for other in piping.given.neighbors.get(part, ())} - known
-    alone = not any(other in piping.solids or other in piping.lines for other in around)
-    return alone and all(_heads_for(ends, row, side) for row in leading)
+    heads = all(_heads_for(ends, row, side) for row in leading)
+    return heads and _is_alone(piping, unit, {side.part, *ends.part[list(leading)].tolist()})
+
+
+def _is_alone(piping: Piping, unit: UnitParts, known: Collection[int]) -> bool:
+    """Whether a unit touches nothing that carries a line or is at one, but for some parts that are known."""
+    around = {other for part in unit.parts for other in piping.given.neighbors.get(part, ())}
+    return not any(other in piping.solids or other in piping.lines for other in around.difference(known, unit.parts))
 
 
 def _heads_for(ends: Ends, row: int, side: Side) -> bool:

@@ -165,11 +165,11 @@ def _join_covers(work: _Work, piping: Piping) -> None:
     """Gives heads, nozzles and the like without a vessel to the one that they lie on, or in, untouched: the lid of a
     coarse tank, a nozzle that ends within the corners of its shell.
     """
-    tanks, names = [k for k, kind in work.types.items() if kind == "tank"], piping.roles.names
-    covers = [k for k in tanks if all(names[part] in _OF_VESSELS for part in work.parts[k])]
-    boxes = {k: _box(piping.given.parts, work.parts[k]) for k in tanks}
+    boxes = {k: _box(piping.given.parts, work.parts[k]) for k, kind in work.types.items() if kind == "tank"}
+    covers = [k for k in boxes if {piping.roles.names[part] for part in work.parts[k]} <= _OF_VESSELS]
+    tanks = boxes.keys() - set(covers)
     for k in covers:
-        homes = [home for home in tanks if home not in covers and _lies_on(boxes[k], boxes[home])]
+        homes = [home for home in tanks if _lies_on(boxes[k], boxes[home])]
         if len(homes) == 1:
             work.merge(homes[0], [k], None)
 
