@@ -189,9 +189,11 @@ def _turned(piping: Piping, group: Group) -> set[int]:
         return set()
     steps = _steps_from(bodies, group, near)
     moving = [part for part in group.parts if names[part] in OPERATORS]
-    together = connected_sets(moving, _pairs_within(moving, near))
-    turning = [some for some in together if {names[part] for part in some} & _TURNING]
-    return {body for some in turning for body in _nearest(some, steps, len(group.parts))}
+    found: set[int] = set()
+    for some in connected_sets(moving, _pairs_within(moving, near)):
+        if not _TURNING.isdisjoint([names[part] for part in some]):
+            found.update(_nearest(some, steps, len(group.parts)))
+    return found
 
 
 def _steps_from(cores: Sequence[int], group: Group, near: Mapping[int, Sequence[int]]) -> dict[int, dict[int, int]]:
