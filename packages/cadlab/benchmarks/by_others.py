@@ -20,16 +20,15 @@ from pathlib import Path
 from isolation import MODES, PAGE, Tally
 
 from cadgraph import load
-from cadgraph.model.given_labels import GivenLabel
 from cadgraph.model.truth import Truth
+from cadgraph.model.vocabulary import FASTENERS
 from cadgraph.pipeline import build
 from cadlab.evaluate.evaluation import evaluate
-from cadlab.evaluate.labels import observe_parts
+from cadlab.evaluate.labels import observe_parts, true_labels
 from cadlab.evaluate.pairing import pair
 from cadlab.markdown import put, table
 
 OTHERS = Path(__file__).with_name("others")
-FASTENERS = frozenset({"bolt", "nut", "washer", "stud", "screw"})
 TITLES = [
     "plant", "labels", "parts", "group right", "name right", "wrong / open", "units / right / none",
     "connections / right / none", "directions / right / wrong", "kinds right / wrong", "unsafe answers",
@@ -59,8 +58,7 @@ def measured(task: tuple[Path, str]) -> Counter[str]:
     if len(scenes) != 1:
         raise SystemExit(f"{folder}: {len(scenes)} files are called scene.*: leave the one that the truth is of")
     truth = Truth.load(folder / "scene.truth.json")
-    given = [GivenLabel(row.mesh, row.group, row.name) for row in truth.meshes if row.group] if mode == "true" else []
-    graph = build(load(scenes[0]), labels=given)
+    graph = build(load(scenes[0]), labels=true_labels(truth) if mode == "true" else [])
     seen = [one for one in observe_parts(pair(graph, truth)) if one.true_name not in FASTENERS and one.true_name]
     scores, tally = evaluate(graph, truth).total, Tally()
     counts = Counter({

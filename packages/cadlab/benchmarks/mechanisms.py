@@ -30,6 +30,7 @@ from cadgraph.model.records import Point, Unit
 from cadgraph.model.truth import Truth, TruthTurning
 from cadgraph.pipeline import build
 from cadgraph.query.mechanisms import immovable, say_mechanism
+from cadlab.evaluate.labels import true_labels
 from cadlab.markdown import put, table
 from cadplants import PRESETS, Plant, make
 from cadplants.truth.truth_writer import truth_of
@@ -137,7 +138,7 @@ def tell_real(folder: Path) -> None:
         print(f"{folder}: not there")
         return
     scene, truth = cadgraph.load(file), Truth.load(known)
-    given = [GivenLabel(row.mesh, row.group, row.name) for row in truth.meshes if row.group and row.mesh in scene.paths]
+    given = [one for one in true_labels(truth) if one.mesh in scene.paths]
     for mode, labels in (("true", given), ("embedded", [])):
         graph = build(scene, labels=labels)
         units = [unit for unit in graph.units() if unit.unit_type in ("valve", "gauge")]

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
+from cadgraph.model.labels import Label
 from cadgraph.model.records import Unit
 from cadgraph.query.network import Network
 
@@ -62,9 +63,14 @@ def is_doubted(network: Network, place: str) -> bool:
         network: of a finished graph.
         place: id of a valve.
     """
-    found = (network.graph.part(part).label for part in network.places[place].parts)
-    labels = [label for label in found if label is not None]
+    labels = _labels(network, place)
     return bool(labels) and all(label.likely or label.source == "network" for label in labels)
+
+
+def _labels(network: Network, place: str) -> list[Label]:
+    """The labels of the parts of a node that have one."""
+    found = (network.graph.part(part).label for part in network.places[place].parts)
+    return [label for label in found if label is not None]
 
 
 def likely_kinds(network: Network, place: str) -> str:
@@ -125,8 +131,7 @@ def _has_operator(network: Network, place: str) -> bool:
 
 def worked_by_hand(network: Network, place: str) -> bool:
     """Whether a valve that only one line was found at is worked by hand, and nobody but the labeler says what it is."""
-    found = (network.graph.part(part).label for part in network.places[place].parts)
-    labels = [label for label in found if label is not None]
+    labels = _labels(network, place)
     told = any(label.source in ("author", "human", "catalog", "repeat") for label in labels)
     operated = any(label.name in _HAND_OPERATORS for label in labels)
     return operated and not told and network.ports_in_use(place) < 2

@@ -266,23 +266,19 @@ def _unknown(network: Network, place: str) -> str:
 
 def _assumed(network: Network, section: Section) -> list[Doubt]:
     """The valves to close of which nobody knows whether they shut off, and the relief valves that may be none."""
-    unknown = [
-        Doubt(place, network.name(place), f"{_unknown(network, place)}; taken for a shut-off valve as asked")
-        for place in section.nearest
-        if place in section.needed and duty_of(network, place) == "unknown"
-    ]
-    unknown += [
-        Doubt(place, network.name(place), _AS_VALVE)
-        for place in section.nearest
-        if place in section.needed and duty_of(network, place) != "unknown" and is_doubted(network, place)
-    ]
+    needed = [place for place in section.nearest if place in section.needed]
+    unknown = [place for place in needed if duty_of(network, place) == "unknown"]
     reliefs = [place for place in section.nearest if _is_closed_relief(network, section, place)]
     doubted = [
         Doubt(place, network.name(place), _AS_RELIEF)
         for place in reliefs
         if worked_by_hand(network, place) or place in network.doubted
     ]
-    return [*unknown, *doubted]
+    return [
+        *(Doubt(p, network.name(p), f"{_unknown(network, p)}; taken for a shut-off valve as asked") for p in unknown),
+        *(Doubt(p, network.name(p), _AS_VALVE) for p in needed if p not in unknown and is_doubted(network, p)),
+        *doubted,
+    ]
 
 
 def _is_closed_relief(network: Network, section: Section, place: str) -> bool:

@@ -12,7 +12,7 @@ from cadgraph.model.derived import store_of
 from cadgraph.model.parts import Opening, Parts
 from cadgraph.model.scene import Floats
 
-__all__ = ["Surface", "lean", "lean_of", "line_through", "surface_about", "triangles_of"]
+__all__ = ["Surface", "box_around", "lean", "lean_of", "line_through", "surface_about", "triangles_of"]
 
 # A neck leans at least and at most as far (slopes of 20 and 65 degrees), and is upright up to a slope of 10 degrees.
 _LEANS, _LIES, _UPRIGHT = 0.36, 2.14, 0.18
@@ -88,6 +88,12 @@ def surface_about(parts: Parts, some: Collection[int], start: Floats, end: Float
     twice = np.linalg.norm(vectors, axis=1)
     normal = vectors / np.maximum(twice, 1e-300)[:, None] @ np.vstack([axis, across]).T
     return Surface(middles @ axis / length, middles @ across.T, normal, twice / 2, length, across)
+
+
+def box_around(parts: Parts, some: Collection[int]) -> tuple[Floats, Floats]:
+    """The lowest and the highest corner of the box around some parts, ``(3,)`` each [m]."""
+    boxes = parts.properties.aabb[list(some)]
+    return boxes[:, 0].min(axis=0), boxes[:, 1].max(axis=0)
 
 
 def triangles_of(parts: Parts, part: int) -> Floats:

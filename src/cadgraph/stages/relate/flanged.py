@@ -8,7 +8,7 @@ from typing import TypeAlias
 import numpy as np
 
 from cadgraph.model.scene import Floats
-from cadgraph.stages.relate.joint import Ends
+from cadgraph.stages.relate.joint import Ends, ahead_of
 
 __all__ = ["FlatContacts", "bodies_between", "heads_for"]
 
@@ -21,7 +21,7 @@ _ON_AXIS, _SQUARE_ON = 0.35, 0.95
 
 def heads_for(ends: Ends, row: int, middle: Floats, normal: Floats) -> bool:
     """Whether an end looks at a flat face, straight on."""
-    ahead = _ahead(ends, row, middle)
+    ahead = ahead_of(ends, row, middle)
     aside = float(np.linalg.norm(middle - ends.point[row] - ahead * ends.direction[row]))
     square = abs(float(normal @ ends.direction[row])) >= _SQUARE_ON
     return ahead > 0 and aside <= _ON_AXIS * float(ends.radius[row]) and square
@@ -58,7 +58,7 @@ def _following(ends: Ends, row: int, body: int, flat: FlatContacts) -> Iterator[
         ahead = [
             (far, there)
             for pair, (middle, normal) in flat.items()
-            if here in pair and (far := _ahead(ends, row, middle)) > at and heads_for(ends, row, middle, normal)
+            if here in pair and (far := ahead_of(ends, row, middle)) > at and heads_for(ends, row, middle, normal)
             for there in pair
             if there != here
         ]
@@ -71,8 +71,3 @@ def _following(ends: Ends, row: int, body: int, flat: FlatContacts) -> Iterator[
 def _is_met(ends: Ends, row: int, others: Sequence[int]) -> bool:
     """Whether one of some ends looks towards another one."""
     return any(float(ends.direction[row] @ ends.direction[other]) <= -_SQUARE_ON for other in others)
-
-
-def _ahead(ends: Ends, row: int, point: Floats) -> float:
-    """How far ahead of an end a point lies [m]."""
-    return float((point - ends.point[row]) @ ends.direction[row])

@@ -14,7 +14,7 @@ import numpy as np
 
 from cadgraph.model.parts import Network, Opening, Parts, UnitParts
 from cadgraph.model.scene import Floats
-from cadgraph.stages.relate.body_shape import lean_of, line_through
+from cadgraph.stages.relate.body_shape import box_around, lean_of, line_through
 from cadgraph.stages.relate.flow_spread import Evidence
 
 __all__ = ["SOURCES", "SURE", "Sight"]
@@ -328,8 +328,7 @@ def relief_valves(sight: Sight) -> Iterator[Evidence]:
 
 def _spring_inlet(sight: Sight, unit: UnitParts) -> int | None:
     """Which of two openings lies against the way the body stands out over both."""
-    low = sight.parts.properties.aabb[list(unit.parts), 0].min(axis=0)
-    high = sight.parts.properties.aabb[list(unit.parts), 1].max(axis=0)
+    low, high = box_around(sight.parts, unit.parts)
     directions = [opening.direction for opening in unit.openings]
     for k, (inlet, outlet) in enumerate(zip(directions, directions[::-1], strict=True)):
         if inlet is None or outlet is None or abs(float(np.dot(inlet, outlet))) > _ACROSS:

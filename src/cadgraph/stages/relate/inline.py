@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from cadgraph.geometry.line.centreline import Centreline
+from cadgraph.model.parts import Bools
 from cadgraph.model.scene import Floats
 from cadgraph.stages.relate.belief import Beliefs
 from cadgraph.stages.relate.body_shape import surface_about
@@ -82,7 +83,7 @@ def recover_inline(piping: Piping, beliefs: Beliefs, likelihood: Curve) -> Pipin
     if not valves:
         return piping
     likely = beliefs.of_groups(valves)
-    others, devices = _rivals(piping, beliefs), set(np.flatnonzero(likely_devices(piping, beliefs)).tolist())
+    others, devices = _rivals(piping, beliefs), likely_devices(piping, beliefs)
     taken: set[int] = set()
     groups: list[Group] = []
     recovered = dict(piping.recovered)
@@ -281,13 +282,12 @@ def _along(points: Floats, axis: Floats) -> bool:
     return bool(abs(float(chord @ axis)) >= -_ALIGNED * float(np.linalg.norm(chord)))
 
 
-def _on_it(piping: Piping, beliefs: Beliefs, piece: _Piece, devices: Collection[int]) -> dict[str, set[int]]:
+def _on_it(piping: Piping, beliefs: Beliefs, piece: _Piece, devices: Bools) -> dict[str, set[int]]:
     """The parts of and on a piece that speak for a valve, by keys of ``INLINE``; ``devices``: what is likely one."""
-    likely = set(piece.parts).intersection(devices)
     return {
         "stem": _stems(piping, beliefs, piece),
         "operator": _operators(piping, piece),
-        "device": likely if len(likely) == len(piece.parts) else set(),
+        "device": set(piece.parts) if devices[list(piece.parts)].all() else set(),
     }
 
 

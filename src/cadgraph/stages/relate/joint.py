@@ -109,6 +109,11 @@ def gather_ends(lines: Mapping[int, Centreline]) -> Ends:
     )
 
 
+def ahead_of(ends: Ends, row: int, point: Floats) -> float:
+    """How far ahead of an end a point lies [m]."""
+    return float((point - ends.point[row]) @ ends.direction[row])
+
+
 def extent_about(ends: Ends, row: int, points: Floats) -> tuple[float, float]:
     """How long some points are along the axis of an end, and how far they reach from it [m].
 

@@ -36,7 +36,8 @@ def meet_directly(
         pair: Meeting(middle, 0.0, FLANGED_SCORE, "they meet in a flat round area")
         for pair, (middle, _) in flat.items()
     }
-    found |= _screwed(piping, units, pairs, found, standing)
+    free = _free_units(piping, units, pairs, {part for pair in found for part in pair}, standing)
+    found |= _screwed(piping, units, pairs, free)
     return {pair: meeting for pair, meeting in found.items() if pair not in given.edits.cut}
 
 
@@ -56,16 +57,10 @@ def _operators(parts: Sequence[int], names: Sequence[str | None]) -> list[int]:
 
 
 def _screwed(
-    piping: Piping,
-    units: Sequence[UnitParts],
-    pairs: Collection[tuple[int, int]],
-    joined: Collection[tuple[int, int]],
-    standing: Collection[int],
+    piping: Piping, units: Sequence[UnitParts], pairs: Collection[tuple[int, int]], free: Collection[int]
 ) -> dict[tuple[int, int], Meeting]:
-    """For each gauge or valve that no line and no flange holds the device that it touches, of several the nearest; a
-    valve that touches more than one is joined to none.
-    """
-    free, owner = _free_units(piping, units, pairs, joined, standing), owners_of(units)
+    """For each unit of free parts the device that it touches, of several the nearest."""
+    owner = owners_of(units)
     best: dict[int, int] = {}
     for row in _rows_at_devices(piping, units, pairs, free):
         a, b = piping.given.contacts.plain_pairs[row]
@@ -89,12 +84,12 @@ def _free_units(
     piping: Piping,
     units: Sequence[UnitParts],
     pairs: Collection[tuple[int, int]],
-    joined: Collection[tuple[int, int]],
+    flanged: Collection[int],
     standing: Collection[int],
 ) -> set[int]:
     """The parts of the gauges and valves that neither a line nor a flange holds; valves touch just one device."""
     owner = owners_of(units)
-    held = {owner.get(part) for pair in joined for part in pair} | {owner.get(part) for part in piping.mounted}
+    held = {owner.get(part) for part in (*flanged, *piping.mounted)}
     around = _around(pairs, owner)
     free = set(range(len(units))) - held - set(standing)
     return {part for k in free if _is_end(piping, units[k], around.get(k, ())) for part in units[k].parts}

@@ -19,7 +19,7 @@ from cadgraph.stages.relate.span import Net, Span, length_of
 __all__ = ["FLANGED_SCORE", "SIDE_SCORE", "TWIN_SCORE", "Drawing", "Meeting", "draw_network"]
 
 TWIN_SCORE, FLANGED_SCORE, SIDE_SCORE = 0.99, 0.97, 0.85
-"""How sure a joint is that no offer tells (ours): ends in one place, flanged solids, gauges at a line or a device."""
+"""How sure a joint is that no offer tells (ours): ends in one place, flanged solids, gauges or valves on something."""
 _TOUCHING = 0.001  # ends this near touch [m]
 _SAME_PLACE = 1e-6  # positions on a branch closer than this are one [m]
 

@@ -10,6 +10,7 @@ import numpy as np
 from cadgraph.stages.relate.attach import flat_contacts
 from cadgraph.stages.relate.belief import Beliefs, beliefs_of
 from cadgraph.stages.relate.body import Arrangement, Body, arrangement_of, find_bodies, other_groups
+from cadgraph.stages.relate.body_shape import box_around
 from cadgraph.stages.relate.evidence import Curve, Term, tell_terms
 from cadgraph.stages.relate.flanged import heads_for
 from cadgraph.stages.relate.foot import take_feet
@@ -343,8 +344,8 @@ def _groups_of(piping: Piping, unit_type: str) -> list[str]:
 
 def _longest(piping: Piping, parts: Sequence[int]) -> float:
     """The longest side of the box around some parts [m]."""
-    boxes = piping.given.parts.properties.aabb[list(parts)]
-    return float((boxes[:, 1].max(axis=0) - boxes[:, 0].min(axis=0)).max())
+    low, high = box_around(piping.given.parts, parts)
+    return float((high - low).max())
 
 
 def _taken(piping: Piping, body: Body, kind: str, found: Recovered) -> Piping:

@@ -205,7 +205,8 @@ def _steps_from(cores: Sequence[int], group: Group, near: Mapping[int, Sequence[
 def _nearest(some: Sequence[int], steps: Mapping[int, Mapping[int, int]], most: int) -> list[int]:
     """The one of several bodies that is the fewest contacts away from some parts; none where two are as near."""
     away = {body: min(far.get(part, most) for part in some) for body, far in steps.items()}
-    nearest = [body for body, contacts in away.items() if contacts == min(away.values())]
+    least = min(away.values())
+    nearest = [body for body, contacts in away.items() if contacts == least]
     return nearest if len(nearest) == 1 else []
 
 

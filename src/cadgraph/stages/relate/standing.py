@@ -4,11 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 
-import numpy as np
-
 from cadgraph.model.parts import UnitParts, owners_of
 from cadgraph.stages.relate.attach import Side
-from cadgraph.stages.relate.joint import Ends
+from cadgraph.stages.relate.joint import Ends, ahead_of, extent_about
 from cadgraph.stages.relate.piping import Piping
 from cadgraph.stages.relate.unit import OPERATORS
 
@@ -69,6 +67,5 @@ def _is_alone(piping: Piping, unit: UnitParts, known: Collection[int]) -> bool:
 
 def _heads_for(ends: Ends, row: int, side: Side) -> bool:
     """Whether the line that ends at a valve heads for the place that the valve stands on, and not along it."""
-    way = side.tap.point - ends.point[row]
-    ahead = float(way @ ends.direction[row])
-    return ahead > 0 and float(np.linalg.norm(way - ahead * ends.direction[row])) <= _ASIDE * ahead
+    ahead, (_, aside) = ahead_of(ends, row, side.tap.point), extent_about(ends, row, side.tap.point[None])
+    return ahead > 0 and aside <= _ASIDE * ahead

@@ -13,6 +13,7 @@ from cadgraph.geometry.components import connected_sets
 from cadgraph.model.parts import Parts
 from cadgraph.model.scene import Floats
 from cadgraph.model.vocabulary import FASTENERS
+from cadgraph.stages.relate.body_shape import box_around
 from cadgraph.stages.relate.enclosed import holds_disc
 from cadgraph.stages.relate.line import is_disc
 from cadgraph.stages.relate.piping import Group, Piping, RelateInput
@@ -165,7 +166,7 @@ def _join_covers(work: _Work, piping: Piping) -> None:
     """Gives heads, nozzles and the like without a vessel to the one that they lie on, or in, untouched: the lid of a
     coarse tank, a nozzle that ends within the corners of its shell.
     """
-    boxes = {k: _box(piping.given.parts, work.parts[k]) for k, kind in work.types.items() if kind == "tank"}
+    boxes = {k: box_around(piping.given.parts, work.parts[k]) for k, kind in work.types.items() if kind == "tank"}
     covers = [k for k in boxes if {piping.roles.names[part] for part in work.parts[k]} <= _OF_VESSELS]
     tanks = boxes.keys() - set(covers)
     for k in covers:
@@ -174,13 +175,7 @@ def _join_covers(work: _Work, piping: Piping) -> None:
             work.merge(homes[0], [k], None)
 
 
-def _box(parts: Parts, some: Collection[int]) -> Floats:
-    """``(2, 3)`` corners of the box around some parts [m]."""
-    boxes = parts.properties.aabb[sorted(some)]
-    return np.stack([boxes[:, 0].min(axis=0), boxes[:, 1].max(axis=0)])
-
-
-def _lies_on(box: Floats, other: Floats) -> bool:
+def _lies_on(box: tuple[Floats, Floats], other: tuple[Floats, Floats]) -> bool:
     """Whether a box lies within the outline of another one from some side, and in it or next to it."""
     shared = np.minimum(box[1], other[1]) - np.maximum(box[0], other[0])
     within = shared >= _WITHIN * (box[1] - box[0])

@@ -12,7 +12,7 @@ from cadgraph.model.derived import store_of
 from cadgraph.model.parts import Parts, UnitParts
 from cadgraph.model.scene import Floats
 from cadgraph.model.standards import lengths_of
-from cadgraph.stages.relate.body_shape import Surface, line_through, surface_about
+from cadgraph.stages.relate.body_shape import Surface, box_around, line_through, surface_about
 from cadgraph.stages.relate.operator_shape import standing_on
 
 __all__ = ["SURE_FROM", "valve_kinds"]
@@ -373,8 +373,8 @@ def _is_sprung(unit: UnitParts, names: Sequence[str | None], parts: Parts) -> bo
     if opening.direction is None or not body:
         return None
     start, way = np.asarray(opening.point), -np.asarray(opening.direction)
-    boxes = parts.properties.aabb[body]
-    reach = float(np.where(way > 0, boxes[:, 1].max(axis=0), boxes[:, 0].min(axis=0)) @ way - start @ way)
+    low, high = box_around(parts, body)
+    reach = float(np.where(way > 0, high, low) @ way - start @ way)
     return _spring_housing(surface_about(parts, body, start, start + reach * way)) if reach > 1e-3 else None
 
 

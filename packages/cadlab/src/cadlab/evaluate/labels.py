@@ -7,6 +7,8 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
+from cadgraph.model.given_labels import GivenLabel
+from cadgraph.model.truth import Truth
 from cadlab.evaluate.pairing import Pairing
 from cadlab.evaluate.scores import ClassScore, mean, share
 
@@ -22,6 +24,7 @@ __all__ = [
     "observe_meshes",
     "observe_parts",
     "score_labels",
+    "true_labels",
 ]
 
 UNLABELLED = "unlabelled"
@@ -163,6 +166,11 @@ class Calibration:
     bins: tuple[Bin, ...]
     ece: float | None
     mce: float | None
+
+
+def true_labels(truth: Truth) -> list[GivenLabel]:
+    """The labels of a truth as somebody gives them to a build: of each mesh whose group it knows."""
+    return [GivenLabel(row.mesh, row.group, row.name) for row in truth.meshes if row.group is not None]
 
 
 def observe_meshes(pairing: Pairing) -> tuple[Observation, ...]:

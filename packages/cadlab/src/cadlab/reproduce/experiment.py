@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
 from cadgraph.config import Config
-from cadgraph.model.given_labels import GivenLabel
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.scene import Scene
 from cadgraph.model.truth import Truth
 from cadgraph.pipeline import build
 from cadlab.evaluate import Evaluation, evaluate
+from cadlab.evaluate.labels import true_labels
 from cadplants import Plant
 from cadplants.truth.truth_writer import truth_of
 
@@ -87,9 +87,5 @@ def subject_of(plant: Plant) -> Subject:
 def try_out(subject: Subject, method: str, labeling: Labeling) -> Trial:
     """Builds the graph of a plant and measures it."""
     config = Config().replace({**labeling.settings, "method": method})
-    graph = build(subject.scene, config, labels=_given(subject.truth) if labeling.true else ())
+    graph = build(subject.scene, config, labels=true_labels(subject.truth) if labeling.true else ())
     return Trial(subject, method, labeling, graph, evaluate(graph, subject.truth))
-
-
-def _given(truth: Truth) -> Sequence[GivenLabel]:
-    return [GivenLabel(row.mesh, row.group, row.name) for row in truth.meshes if row.group is not None]

@@ -8,6 +8,7 @@ from collections.abc import Iterable, Mapping, Sequence
 import numpy as np
 
 from cadgraph.labelers.embedded.model import Model
+from cadgraph.model.vocabulary import FASTENERS
 from cadlab.markdown import table
 from cadlab.training.course import ALONE, PRECISION, SURE, Trials
 from cadlab.training.figure import Answers, Scores, answer, error_of_families, score
@@ -16,7 +17,6 @@ from cadlab.training.samples import LEFT_OUT
 
 __all__ = ["write_page"]
 
-_FASTENERS = ("bolt", "nut", "washer", "stud", "screw")
 _CONFUSIONS = 20
 _WORDS = ("No", "One", "Two", "Three", "Four", "Five", "Six", "Seven", "Eight", "Nine", "Ten")
 _SEEN_ALIKE: Mapping[str, tuple[str, ...]] = {
@@ -257,7 +257,7 @@ def _sure_though_wrong(answers: Iterable[Answers]) -> float:
 
 
 def _without_fasteners(a: Answers) -> Answers:
-    return a.where(np.array([str(label).split("/")[1] not in _FASTENERS for label in a.truth], np.bool_))
+    return a.where(np.array([str(label).split("/")[1] not in FASTENERS for label in a.truth], np.bool_))
 
 
 def _table(rows: Iterable[tuple[str, Scores]]) -> str:
