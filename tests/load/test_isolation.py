@@ -17,6 +17,7 @@ from pxr import Usd, UsdGeom
 from cadgraph.config import LoadConfig
 from cadgraph.errors import LoadError
 from cadgraph.load import load
+from cadgraph.load.sandbox import isolation
 from cadgraph.load.sandbox.isolation import read_isolated
 
 LIMITED = LoadConfig(timeout=60)
@@ -252,6 +253,23 @@ def test_folders_of_killed_processes_are_cleared_and_those_in_use_kept(tmp_path,
         fcntl.flock(lock, fcntl.LOCK_EX)
         load(tmp_path / "a.usdc")
     assert sorted(path.name for path in scratch.iterdir()) == ["cadgraph-alive", "cadgraph-foreign", "other-dead"]
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="needs locks that end with a process")
+def test_a_folder_that_is_not_locked_yet_is_not_taken_for_abandoned(tmp_path, crate, scratch, monkeypatch):
+    (tmp_path / "a.usdc").write_bytes(crate)
+    lock, begun = isolation._try_to_lock, []
+
+    def clearing_up_first(file):
+        if not begun:
+            begun.append(file)
+            isolation._clear_abandoned(scratch)  # as another process does that begins to read at this moment
+        return lock(file)
+
+    monkeypatch.setattr(isolation, "_try_to_lock", clearing_up_first)
+    assert load(tmp_path / "a.usdc").n_meshes == 12
+    assert begun
+    assert list(scratch.iterdir()) == []
 
 
 def test_want_of_memory_is_no_damage(tmp_path, monkeypatch):

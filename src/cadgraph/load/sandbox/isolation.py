@@ -149,9 +149,11 @@ def _exchange_folder() -> Iterator[Path]:
     _clear_abandoned(Path(tempfile.gettempdir()))
     with (
         tempfile.TemporaryDirectory(prefix=_PREFIX, ignore_cleanup_errors=True) as name,
-        (Path(name) / _LOCK).open("wb") as lock,
+        (Path(name) / f"{_LOCK}.part").open("wb") as lock,
     ):
-        _try_to_lock(lock.fileno())
+        # It gets its name when it is locked: another process that clears up would take one that is not for abandoned.
+        if _try_to_lock(lock.fileno()):
+            os.rename(lock.name, Path(name) / _LOCK)
         yield Path(name)
 
 
