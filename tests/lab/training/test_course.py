@@ -3,18 +3,23 @@
 import csv
 import json
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 
-from cadgraph.labelers.embedded.model import STRANGE
-from cadlab.training.figure import Answers, error_of_families, least_confidence, score
-from cadlab.training.real import read_real_parts, read_real_plants, side_by_side
+from cadgraph.labelers.embedded.model import STRANGE, default_model
+from cadgraph.load import load
+from cadgraph.model.vocabulary import default_vocabulary
+from cadlab.training.figure import Answers, answer, error_of_families, least_confidence, score
+from cadlab.training.real import read_modelled_plants, read_real_parts, read_real_plants, side_by_side
 from cadlab.training.samples import LEFT_OUT, TRIED_FROM, Sample, held_out_lessons, training_samples
 from cadplants.presets.authoring_systems import SYSTEMS
 from cadplants.presets.preset import make
 from cadplants.presets.single_device import make_device
 from cadplants.writers.usd import write_usd
+
+MODELLED = Path(__file__).parents[3] / "packages" / "cadlab" / "training_plants"
 
 
 def answers(truth, name, confidence):
@@ -63,6 +68,25 @@ def test_a_second_draw_has_other_plants_and_none_of_the_systems_that_it_leaves_o
     assert max(sample.seed for sample in second) < TRIED_FROM
 
 
+def test_of_no_plants_there_are_no_answers():
+    said = answer(default_model(), [])
+    assert len(said.truth) == 0
+    assert score(said, 0.5).parts == 0
+
+
+@pytest.fixture(scope="module")
+def modelled(tmp_path_factory):
+    """A folder as one with plants of other modellers is laid out."""
+    folder = tmp_path_factory.mktemp("modelled")
+    for k, place in enumerate(("one/riser", "one/skid", "two/riser")):
+        (folder / place).mkdir(parents=True)
+        truth = write_usd(make("riser", k, "game"), folder / place / "scene.usdc")
+        meshes = json.loads(truth.read_text())["meshes"]
+        meshes[0] |= {"group": "none", "name": "none"}
+        truth.write_text(json.dumps({"meshes": meshes}))
+    return folder
+
+
 @pytest.fixture(scope="module")
 def real(tmp_path_factory):
     """A folder as one with real plants and parts is laid out."""
@@ -107,6 +131,34 @@ def test_real_plants_and_parts_are_read_with_their_labels_and_licences(real, tmp
 
 
 @pytest.mark.slow
+def test_modelled_plants_are_read_with_what_belongs_to_no_plant_and_stretched(modelled, tmp_path):
+    plants = read_modelled_plants(modelled, tmp_path, workers=1)
+    assert [(plant.modeller, plant.name) for plant in plants] == [("one", "riser"), ("one", "skid"), ("two", "riser")]
+    as_it_is, *stretched = plants[0].examples
+    assert (as_it_is.label == STRANGE).sum() == 1
+    assert len(stretched) == 3
+    for other in stretched:
+        assert (other.label == as_it_is.label).all()
+        assert not np.allclose(other.sizes[other.shape], as_it_is.sizes[as_it_is.shape])
+    kept = {path: path.stat().st_mtime_ns for path in tmp_path.iterdir()}
+    again = read_modelled_plants(modelled, tmp_path, workers=1)
+    assert {path: path.stat().st_mtime_ns for path in tmp_path.iterdir()} == kept
+    assert [plant.digest for plant in again] == [plant.digest for plant in plants]
+
+
+def test_without_modelled_plants_there_are_none(tmp_path):
+    assert read_modelled_plants(tmp_path / "nowhere", tmp_path / "kept", workers=1) == []
+
+
+@pytest.mark.parametrize("truth", sorted(MODELLED.glob("*/*/scene.truth.json")), ids=lambda path: path.parent.name)
+def test_every_mesh_of_a_plant_to_learn_from_has_a_label(truth):
+    vocabulary = default_vocabulary()
+    labels = {row["mesh"]: (row["group"], row["name"]) for row in json.loads(truth.read_text("utf-8"))["meshes"]}
+    assert set(labels) == set(load(truth.with_name("scene.usdc")).paths)
+    assert [label for label in labels.values() if label[0] != "none" and not vocabulary.holds(*label)] == []
+
+
+@pytest.mark.slow
 def test_scenes_side_by_side_keep_to_themselves(real, tmp_path):
     examples = [part.examples[0] for part in read_real_parts(real / "parts", tmp_path, workers=1)]
     whole = side_by_side(examples)
@@ -117,7 +169,7 @@ def test_scenes_side_by_side_keep_to_themselves(real, tmp_path):
 
 
 @pytest.mark.slow
-def test_a_tiny_course_ends_in_a_model_a_page_and_a_sheet(real, tmp_path, monkeypatch):
+def test_a_tiny_course_ends_in_a_model_a_page_and_a_sheet(real, modelled, tmp_path, monkeypatch):
     pytest.importorskip("torch")
     from cadlab.training import __main__ as command
     from cadlab.training import course
@@ -135,10 +187,14 @@ def test_a_tiny_course_ends_in_a_model_a_page_and_a_sheet(real, tmp_path, monkey
     model, page, sheet = tmp_path / "model.npz", tmp_path / "page.md", tmp_path / "sheet.jpg"
     command.main([
         "--model", str(model), "--page", str(page), "--sheet", str(sheet), "--plants-in", str(tmp_path / "kept"),
-        "--real", str(real), "--members", "1", "--folds", "2", "--epochs", "1", "--workers", "1", "--no-ablations",
+        "--real", str(real), "--modelled", str(modelled),
+        "--members", "1", "--folds", "2", "--epochs", "1", "--workers", "1", "--no-ablations",
     ])  # fmt: skip
     assert model.is_file()
     assert sheet.read_bytes()[:2] == b"\xff\xd8"
     text = page.read_text()
-    for words in ("riser", "single real parts of held-out makers", "robot-world", "sheet.jpg", "one, three"):
+    for words in (
+        "riser", "single real parts of held-out makers", "robot-world", "sheet.jpg", "one, three", "modeller two",
+        "3 plants by 2 other modellers",
+    ):  # fmt: skip
         assert words in text.replace("['one', 'three']", "one, three").replace("'three', 'one'", "one, three")

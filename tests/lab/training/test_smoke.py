@@ -78,6 +78,7 @@ def test_the_course_trains_what_the_package_holds():
     from cadlab.training import course
 
     assert command._MODEL.is_file()
+    assert list(command._MODELLED.glob("*/*/scene.truth.json"))
     for package, pattern in course._MAKERS:
         assert list(Path(package.__file__).parent.glob(pattern)), f"no file is {pattern}"
     assert len(course.source_digest()) == 8

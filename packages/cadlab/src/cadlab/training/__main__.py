@@ -8,17 +8,19 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
+import cadlab
 from cadgraph._io.atomic import write_atomically
 from cadgraph.labelers import embedded
 from cadgraph.labelers.embedded.model import write_model
 from cadlab.training.course import Course, run_course, source_digest
 from cadlab.training.page import write_page
-from cadlab.training.real import read_real_parts, read_real_plants
+from cadlab.training.real import read_modelled_plants, read_real_parts, read_real_plants
 from cadlab.training.sheet import draw_mistakes
 from cadplants.presets.taste import ALL_FAMILIES
 
 _MODEL = Path(embedded.__file__).with_name("model.npz")
 """The model that the labeler reads; ``make train`` writes it anew in place."""
+_MODELLED = Path(cadlab.__file__).parents[2] / "training_plants"
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
@@ -33,6 +35,10 @@ def main(arguments: Sequence[str] | None = None) -> None:
         "--real", type=Path,
         help="folder with real plants (NAME/scene.usdc, NAME/scene.truth.json) to try the model on, and with single "
         "parts (parts/labels.csv), of which those of open licences are learnt from",
+    )  # fmt: skip
+    parser.add_argument(
+        "--modelled", type=Path, default=_MODELLED,
+        help="folder with plants of other modellers to learn from (MODELLER/NAME/scene.usdc, scene.truth.json)",
     )  # fmt: skip
     parser.add_argument("--plants", type=int, default=usual.plants)
     parser.add_argument("--drawn", type=int, default=usual.drawn)
@@ -51,8 +57,10 @@ def main(arguments: Sequence[str] | None = None) -> None:
         ablations=not given.no_ablations, recipe=replace(usual.recipe, epochs=given.epochs),
     )  # fmt: skip
     plants = read_real_plants(given.real) if given.real else []
-    parts = read_real_parts(given.real / "parts", given.plants_in / source_digest()) if given.real else []
-    trials = run_course(course, given.plants_in, plants, parts, given.workers, _tell)
+    kept = given.plants_in / source_digest()
+    parts = read_real_parts(given.real / "parts", kept) if given.real else []
+    modelled = read_modelled_plants(given.modelled, kept, given.workers)
+    trials = run_course(course, given.plants_in, plants, parts, modelled, given.workers, _tell)
     beside = given.model.with_suffix(".part")
     write_model(trials.model, beside)
     beside.replace(given.model)

@@ -25,7 +25,7 @@ from cadlab.training.example import Example, Texts, make_parts_from
 from cadlab.training.figure import Answers, Scores, answer, joined, least_confidence, score, temperature
 from cadlab.training.fit import Recipe, fit
 from cadlab.training.fit import __file__ as fit_file
-from cadlab.training.real import RealPart, RealPlant, side_by_side
+from cadlab.training.real import ModelledPlant, RealPart, RealPlant, side_by_side
 from cadlab.training.samples import TRIED_FROM, Sample, build_samples, held_out_lessons, training_samples
 from cadplants.presets.authoring_systems import SYSTEMS
 from cadplants.presets.preset import make
@@ -57,13 +57,7 @@ _MAKERS = (
 
 _OPEN = 0.9  # share of the strangers that stay open
 _TOGETHER = 24  # single real parts that are shown as one scene
-_COPIES = 2  # times that each of these is shown while a plant is shown once
-
-ABLATIONS: dict[str, dict[str, Any]] = {
-    "without what is up": {"blind": ("up",)},
-    "without the scene as a whole": {"blind": ("scene",)},
-}
-"""Networks that lack something, against those of the first fold that have all: changes of the recipe."""
+_COPIES = 2  # times that each of these, and each modelled plant, is shown while a plant is shown once
 
 
 @dataclass(frozen=True)
@@ -77,7 +71,8 @@ class Course:
             fasteners.
         members: networks whose scores are averaged.
         draws: of plants among which the members take turns; the folds learn from the first.
-        folds: each holds out some of the authoring systems, of the families of devices and of the makers of real parts.
+        folds: each holds out some of the authoring systems, of the families of devices, of the makers of real parts and
+            of the modellers of plants.
         seeds: plants of each kind that the networks are tried on.
         ablations: whether networks that lack something are trained for comparison.
         recipe: of each network.
@@ -86,7 +81,7 @@ class Course:
     plants: int = 720
     drawn: int = 80
     others: int = 48
-    members: int = 10
+    members: int = 8
     draws: int = 2
     folds: int = 4
     seeds: int = 3
@@ -103,7 +98,9 @@ class Trials:
         systems: answers about all parts of plants of systems that were held out.
         families: of these, about parts of families that were held out as well.
         makers: about single real parts whose makers were held out.
-        ablations: answers about the held-out systems of the first fold, as it is and without something.
+        modellers: about modelled plants whose modellers were held out.
+        ablations: answers about what the first fold held out (systems, makers, modellers), as it is and without
+            something.
         real: of the model in the end about real plants, by their names.
         plants: what the model is tried on, by the name of the trial.
     """
@@ -112,7 +109,8 @@ class Trials:
     systems: Answers
     families: Answers
     makers: Answers
-    ablations: dict[str, tuple[Answers, Answers]]
+    modellers: Answers
+    ablations: dict[str, tuple[Answers, Answers, Answers]]
     real: dict[str, Answers]
     plants: dict[str, list[Example]]
 
@@ -125,11 +123,13 @@ class Fold:
         systems: of authoring.
         families: of devices.
         makers: of single real parts.
+        modellers: of plants.
     """
 
     systems: frozenset[str] = frozenset()
     families: frozenset[str] = frozenset()
     makers: frozenset[str] = frozenset()
+    modellers: frozenset[str] = frozenset()
 
 
 def run_course(
@@ -137,6 +137,7 @@ def run_course(
     folder: Path,
     plants: Sequence[RealPlant] = (),
     parts: Sequence[RealPart] = (),
+    modelled: Sequence[ModelledPlant] = (),
     workers: int = 2,
     told: Callable[[str], None] = lambda _: None,
 ) -> Trials:
@@ -147,6 +148,7 @@ def run_course(
         folder: keeps plants and networks: a run that was broken off goes on where it stopped.
         plants: real ones to report on; nothing is learnt from them.
         parts: single real ones, learnt from where their licences permit.
+        modelled: plants of others to learn from.
         workers: processes that build and train.
         told: how far it is.
     """
@@ -158,27 +160,31 @@ def run_course(
         for name, some in held_out_lessons(course.seeds).items()
     }
     classes = known_classes()
-    folds = deal_folds(examples, parts, course.folds)
-    job = _Job(draws[0], folder, tuple(classes), course.recipe, 0, Fold(), tuple(parts))
+    folds = deal_folds(examples, parts, modelled, course.folds)
+    job = _Job(draws[0], folder, tuple(classes), course.recipe, 0, Fold(), tuple(parts), tuple(modelled))
     jobs = [replace(job, seed=seed, out=out) for seed, out in enumerate(folds)]
     jobs += [replace(job, seed=len(folds) + k, samples=draws[k % len(draws)]) for k in range(course.members)]
-    lacking = {name: replace(jobs[0], recipe=replace(course.recipe, **change)) for name, change in ABLATIONS.items()}
-    lacking["without single real parts"] = replace(jobs[0], parts=())
-    if not course.ablations:
-        lacking = {}
+    lacking = {
+        "without plants by other modellers": replace(jobs[0], modelled=()),
+        "without single real parts": replace(jobs[0], parts=()),
+    } if course.ablations else {}  # fmt: skip
     networks = _train([*jobs, *lacking.values()], workers, told)
     members, others = networks[len(folds) : len(jobs)], networks[len(jobs) :]
-    trials = [_Trial(network, fold, tried, parts) for network, fold in zip(networks, folds, strict=False)]
+    trials = [_Trial(network, fold, tried, parts, modelled) for network, fold in zip(networks, folds, strict=False)]
 
     def asked(value: float, which: str) -> Answers:
         return joined(*(getattr(trial, which)(classes, value) for trial in trials))
 
     best = temperature(lambda value: asked(value, "systems"))
-    systems, families, makers = (asked(best, which) for which in ("systems", "families", "makers"))
+    systems, families = asked(best, "systems"), asked(best, "families")
+    makers, modellers = asked(best, "makers"), asked(best, "modellers")
     least, alone, sure = _thresholds(families, makers)
     without = [(name, replace(trials[0], network=network)) for name, network in zip(lacking, others, strict=True)]
     compared = [("as it is", trials[0]), *without] if lacking else []
-    ablations = {name: (trial.systems(classes, best), trial.makers(classes, best)) for name, trial in compared}
+    ablations = {
+        name: (trial.systems(classes, best), trial.makers(classes, best), trial.modellers(classes, best))
+        for name, trial in compared
+    }
     card = {
         "draws": course.draws, "plants": course.plants, "plants in drawn styles": course.drawn,
         "scenes of others": course.others,
@@ -191,11 +197,14 @@ def run_course(
         "held-out makers": _card(score(makers, alone)),
         "learnt real parts": sum(part.open for part in parts),
         "their makers": sorted({part.maker for part in parts if part.open}),
+        "plants of held-out modellers": _card(score(modellers, least)),
+        "learnt plants of others": len(modelled),
+        "their modellers": len({plant.modeller for plant in modelled}),
     }  # fmt: skip
     model = Model(tuple(members), tuple(classes), best, least, alone, sure, card)
     model = replace(model, card=card | {"fixed trial": [_fixed_trial(model, *trial) for trial in FIXED]})
     real = {plant.name: answer(model, [plant.example]) for plant in plants}
-    return Trials(model, systems, families, makers, ablations, real, tried)
+    return Trials(model, systems, families, makers, modellers, ablations, real, tried)
 
 
 def _thresholds(families: Answers, makers: Answers) -> tuple[float, float, float]:
@@ -235,12 +244,15 @@ def known_classes() -> list[str]:
     return [f"{group}/{name}" for group, content in tree.items() for name in content["names"]] + [STRANGE]
 
 
-def deal_folds(examples: Sequence[Example], parts: Sequence[RealPart], folds: int) -> list[Fold]:
-    """Deals systems, families and makers into folds of about as many each.
+def deal_folds(
+    examples: Sequence[Example], parts: Sequence[RealPart], modelled: Sequence[ModelledPlant], folds: int
+) -> list[Fold]:
+    """Deals systems, families, makers and modellers into folds of about as many each.
 
     Args:
         examples: plants that hold the families.
         parts: of the makers.
+        modelled: by the modellers.
         folds: how many.
     """
     # Pipe, elbows and plain flanges are in every plant and of no family of devices.
@@ -251,6 +263,7 @@ def deal_folds(examples: Sequence[Example], parts: Sequence[RealPart], folds: in
             _dealt(set(SYSTEMS), folds),
             _dealt(families, folds),
             _dealt({part.maker for part in parts}, folds),
+            _dealt({plant.modeller for plant in modelled}, folds),
             strict=True,
         )
     ]
@@ -282,6 +295,7 @@ class _Job:
     seed: int
     out: Fold
     parts: tuple[RealPart, ...]
+    modelled: tuple[ModelledPlant, ...]
 
 
 @dataclass(frozen=True)
@@ -292,11 +306,13 @@ class _Trial:
     out: Fold
     tried: dict[str, list[Example]]
     parts: Sequence[RealPart]
+    modelled: Sequence[ModelledPlant]
 
     def systems(self, classes: Sequence[str], value: float) -> Answers:
         """About all parts of plants of the systems that were held out."""
-        model = Model((self.network,), tuple(classes), value, 0.5, 0.5, 0.5)
-        return answer(model, [e for system in sorted(self.out.systems) for e in self.tried[f"system: {system}"]])
+        return self._answer(
+            classes, value, [e for system in sorted(self.out.systems) for e in self.tried[f"system: {system}"]]
+        )
 
     def families(self, classes: Sequence[str], value: float) -> Answers:
         """Of these, about parts of held-out families."""
@@ -305,8 +321,14 @@ class _Trial:
 
     def makers(self, classes: Sequence[str], value: float) -> Answers:
         """About single real parts of held-out makers."""
-        model = Model((self.network,), tuple(classes), value, 0.5, 0.5, 0.5)
-        return answer(model, [part.examples[0] for part in self.parts if part.maker in self.out.makers])
+        return self._answer(classes, value, [p.examples[0] for p in self.parts if p.maker in self.out.makers])
+
+    def modellers(self, classes: Sequence[str], value: float) -> Answers:
+        """About plants of held-out modellers."""
+        return self._answer(classes, value, [p.examples[0] for p in self.modelled if p.modeller in self.out.modellers])
+
+    def _answer(self, classes: Sequence[str], value: float, examples: Sequence[Example]) -> Answers:
+        return answer(Model((self.network,), tuple(classes), value, 0.5, 0.5, 0.5), examples)
 
 
 def _train(jobs: Sequence[_Job], workers: int, told: Callable[[str], None]) -> list[Classifier]:
@@ -322,7 +344,8 @@ def _train(jobs: Sequence[_Job], workers: int, told: Callable[[str], None]) -> l
 def _trained(job: _Job) -> Classifier:
     """Trains one network, or reads it where it was trained before."""
     text = repr((job.samples, job.classes, job.recipe, job.seed, _listed(job.out)))
-    text += repr([part.maker for part in job.parts]) + Path(fit_file).read_text("utf-8")
+    text += repr([part.maker for part in job.parts]) + repr([plant.digest for plant in job.modelled])
+    text += Path(fit_file).read_text("utf-8")
     path = job.folder / f"network-{sha256(text.encode()).hexdigest()[:12]}.npz"
     if not path.is_file():
         # One thread each: the same sums in the same order on every machine, and no waiting for each other.
@@ -337,7 +360,7 @@ def _trained(job: _Job) -> Classifier:
 
 
 def _listed(out: Fold) -> tuple[list[str], ...]:
-    return tuple(sorted(names) for names in (out.systems, out.families, out.makers))
+    return tuple(sorted(names) for names in (out.systems, out.families, out.makers, out.modellers))
 
 
 def _lessons(job: _Job) -> list[Example]:
@@ -349,7 +372,8 @@ def _lessons(job: _Job) -> list[Example]:
     order = np.random.default_rng(47).permutation(len(versions))
     shuffled = [versions[i] for i in order]
     scenes = [side_by_side(shuffled[k : k + _TOGETHER]) for k in range(0, len(shuffled), _TOGETHER)]
-    return lessons + scenes * _COPIES
+    plants = [e for plant in job.modelled if plant.modeller not in job.out.modellers for e in plant.examples]
+    return lessons + (scenes + plants) * _COPIES
 
 
 def _within(family: Texts, out: frozenset[str]) -> npt.NDArray[np.bool_]:
@@ -358,4 +382,6 @@ def _within(family: Texts, out: frozenset[str]) -> npt.NDArray[np.bool_]:
 
 
 def _card(scores: Scores) -> dict[str, float]:
+    if not scores.parts:
+        return {"parts": 0}  # the others are no numbers
     return {name: round(value, 4) for name, value in asdict(scores).items()}

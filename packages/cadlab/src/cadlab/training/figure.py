@@ -106,7 +106,7 @@ def answer(
 
     Args:
         model: any.
-        examples: plants.
+        examples: plants; of none there are no answers.
         repeats: whether repeats of one shape agree among themselves.
         change: what is done to each plant before.
     """
@@ -136,6 +136,9 @@ def answer(
                 )
             )
         )  # fmt: skip
+    if not rows:
+        text, number = np.empty(0, np.str_), np.empty(0)
+        return Answers(text, text, text, number, number, text, text)
     columns = [np.concatenate(column) for column in zip(*rows, strict=True)]
     return Answers(**dict(zip(Answers.__annotations__, columns, strict=True)))
 

@@ -57,7 +57,7 @@ class Recipe:
     width: int = 192
     talk: int = 48
     rounds: int = 3
-    epochs: int = 18
+    epochs: int = 14
     batch: int = 8
     rate: float = 2e-3
     decay: float = 0.02

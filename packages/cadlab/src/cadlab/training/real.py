@@ -1,4 +1,4 @@
-"""Real plants and single real parts by other hands: to try the network on, and parts of open licences to learn from."""
+"""What others drew: real plants to try the network on, and single real parts and modelled plants to learn from."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ import json
 from collections.abc import Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, replace
+from hashlib import sha256
 from pathlib import Path
 
 import numpy as np
@@ -18,12 +19,22 @@ from cadgraph.model.parts import Parts
 from cadgraph.model.scene import Floats, Scene
 from cadlab.training.example import Example, Texts, make_parts_from, read_examples, write_examples
 
-__all__ = ["OPEN_LICENCES", "RealPart", "RealPlant", "read_real_parts", "read_real_plants", "side_by_side"]
+__all__ = [
+    "OPEN_LICENCES",
+    "ModelledPlant",
+    "RealPart",
+    "RealPlant",
+    "read_modelled_plants",
+    "read_real_parts",
+    "read_real_plants",
+    "side_by_side",
+]
 
 OPEN_LICENCES = ("Apache-2.0", "BSD", "CC-BY-3.0", "CC-BY-4.0", "CC0", "MIT")
 """How the licences start of what may be learnt from; copyleft and share-alike ones are only tried."""
 
 _STRETCHED = 3  # versions of a part to learn from: as it is, and stretched
+_PLANT_STRETCHED = 4  # of a plant
 _STRETCH = 0.12  # spread of the logarithm of the factors along the three sides of its box
 
 
@@ -57,14 +68,29 @@ class RealPart:
     examples: tuple[Example, ...]
 
 
+@dataclass(frozen=True)
+class ModelledPlant:
+    """A plant that somebody modelled from what real ones look like, with nothing of the generator's; to learn from.
+
+    Args:
+        name: of its folder.
+        modeller: of the folder above, whose plants are held out together.
+        digest: of its files.
+        examples: as it is, and stretched a little along the axes; what belongs to no plant has the label ``STRANGE``.
+    """
+
+    name: str
+    modeller: str
+    digest: str
+    examples: tuple[Example, ...]
+
+
 def read_real_plants(folder: Path) -> list[RealPlant]:
     """Reads the plants in the folders below one: each a ``scene.usdc`` with its ``scene.truth.json``."""
     found = []
     for truth in sorted(folder.glob("*/scene.truth.json")):
-        known = json.loads(truth.read_text(encoding="utf-8"))["meshes"]
-        labels = {row["mesh"]: f"{row['group']}/{row['name']}" for row in known if row.get("name")}
         scene = load(truth.with_name("scene.usdc"))
-        example, parts = _example(scene, labels, truth.parent.name)
+        example, parts = _example(scene, _labels_in(truth), truth.parent.name)
         found.append(RealPlant(truth.parent.name, example, parts))
     return found
 
@@ -101,18 +127,66 @@ def read_real_parts(folder: Path, keep: Path, workers: int = 2) -> list[RealPart
     return found
 
 
+def read_modelled_plants(folder: Path, keep: Path, workers: int = 2) -> list[ModelledPlant]:
+    """Reads the plants ``MODELLER/NAME/scene.usdc`` with ``scene.truth.json`` beside it; none where there is no folder.
+
+    Args:
+        folder: that holds one of each modeller.
+        keep: folder that keeps what was read, a file for each plant.
+        workers: processes.
+    """
+    keep.mkdir(parents=True, exist_ok=True)
+    truths = sorted(folder.glob("*/*/scene.truth.json"))
+    digests = [_digest(truth.read_bytes(), truth.with_name("scene.usdc").read_bytes()) for truth in truths]
+    paths = [keep / f"modelled-{digest}.npz" for digest in digests]
+    with ProcessPoolExecutor(workers) as pool:
+        list(pool.map(_keep_plant, truths, paths))
+    return [
+        ModelledPlant(truth.parent.name, truth.parents[1].name, digest, tuple(read_examples(path)))
+        for truth, digest, path in zip(truths, digests, paths, strict=True)
+    ]
+
+
+def _digest(*contents: bytes) -> str:
+    return sha256(b"".join(contents)).hexdigest()[:12]
+
+
+def _keep_plant(truth: Path, path: Path) -> None:
+    """Writes one plant as it is, and stretched, unless that was done before."""
+    if not path.is_file():
+        beside = path.with_suffix(".part")
+        seed = int(path.stem.split("-")[1], 16)
+        scene, source = load(truth.with_name("scene.usdc")), f"modeller {truth.parents[1].name}"
+        write_examples(_stretched_examples(scene, _labels_in(truth), source, seed, _PLANT_STRETCHED), beside)
+        beside.replace(path)
+
+
 def _versions(job: tuple[Path, int, str, list[dict[str, str]]]) -> list[Example]:
     """One file as it is, and stretched."""
     folder, k, name, rows = job
-    labels = {row["mesh"]: STRANGE if row["group"] == "none" else f"{row['group']}/{row['name']}" for row in rows}
-    scene = load(folder / name)
-    rng = np.random.default_rng([k, 91])
-    factors = [np.ones(3), *(np.exp(rng.normal(0, _STRETCH, 3)) for _ in range(_STRETCHED - 1))]
-    return [_example(_stretched(scene, factor), labels, name.split("/")[0])[0] for factor in factors]
+    labels = {row["mesh"]: _label(row["group"], row["name"]) for row in rows}
+    return _stretched_examples(load(folder / name), labels, name.split("/")[0], k, _STRETCHED)
+
+
+def _stretched_examples(scene: Scene, labels: dict[str, str], source: str, seed: int, versions: int) -> list[Example]:
+    """As many versions of a scene, of which the first is as it is."""
+    rng = np.random.default_rng([seed, 91])
+    factors = [np.ones(3), *(np.exp(rng.normal(0, _STRETCH, 3)) for _ in range(versions - 1))]
+    return [_example(_stretched(scene, factor), labels, source)[0] for factor in factors]
 
 
 def _stretched(scene: Scene, factors: Floats) -> Scene:
     return scene.with_vertices(scene.vertices * factors)
+
+
+def _labels_in(truth: Path) -> dict[str, str]:
+    """The label of each mesh that a truth names."""
+    known = json.loads(truth.read_text(encoding="utf-8"))["meshes"]
+    return {row["mesh"]: _label(row["group"], row["name"]) for row in known if row.get("name")}
+
+
+def _label(group: str, name: str) -> str:
+    return STRANGE if group == "none" else f"{group}/{name}"
 
 
 def _example(scene: Scene, labels: dict[str, str], source: str) -> tuple[Example, Scene]:
