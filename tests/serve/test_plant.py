@@ -212,7 +212,7 @@ def test_a_graph_that_could_not_be_written_is_written_when_it_can(folder, monkey
 def wait_for(condition):
     before = time.monotonic()
     while not condition():
-        assert time.monotonic() - before < 30
+        assert time.monotonic() - before < 120  # a busy machine takes its time
         time.sleep(0.01)
 
 

@@ -99,7 +99,7 @@ def repeated(page):
     parts = page.parts
     shape, size = np.array(parts["shape"]), np.array(parts["size"]).reshape(-1, 3).prod(axis=1)
     counts = np.bincount(shape)[shape]
-    open_to_others = np.array(parts["confidence"], float) < 0.99  # of a surer one nothing else may be offered
+    open_to_others = np.array([len(guesses) > 1 for guesses in parts["guesses"]])
     rows = np.flatnonzero((counts >= 3) & ~np.array(parts["ground"]) & open_to_others)
     row = int(rows[size[rows].argmax()])
     return row, int(counts[row])
