@@ -48,7 +48,6 @@ class Recipe:
         sizeless: share of the plants that are shown without absolute sizes.
         upless: share of the plants that are shown without what depends on where up is.
         sceneless: share of the plants that are shown without what is known of the scene as a whole.
-        blind: what is never shown: ``up`` or ``scene``; for comparison.
         smoothing: of the labels.
         balance: exponent of the frequency by which rare names weigh more.
     """
@@ -70,7 +69,6 @@ class Recipe:
     sizeless: float = 0.15
     upless: float = 0.15
     sceneless: float = 0.25
-    blind: tuple[str, ...] = ()
     smoothing: float = 0.03
     balance: float = 0.5
 
@@ -229,10 +227,10 @@ def _batch(
         x = np.clip((x - mean) / spread, -LIMIT, LIMIT) + rng.normal(0, recipe.noise, x.shape)
         if rng.random() < recipe.sizeless:
             x[:, columns.sizes] = 0.0
-        upless = rng.random() < recipe.upless or "up" in recipe.blind
+        upless = rng.random() < recipe.upless
         if upless:
             x[:, columns.up] = 0.0
-        if scattered or rng.random() < recipe.sceneless or "scene" in recipe.blind:
+        if scattered or rng.random() < recipe.sceneless:
             x[:, columns.scene] = 0.0
         kept = ~alone[e.here] & ~alone[e.there] & (rng.random(len(e.here)) > recipe.deaf)
         s = np.clip((e.sides[kept] - side_mean) / side_spread, -LIMIT, LIMIT)

@@ -113,11 +113,9 @@ def read_real_parts(folder: Path, keep: Path, workers: int = 2) -> list[RealPart
     kept = keep / "real-parts.npz"
     if not kept.is_file():
         keep.mkdir(parents=True, exist_ok=True)
-        beside = kept.with_suffix(".part")
         with ProcessPoolExecutor(workers) as pool:
             jobs = [(folder, k, name, rows) for k, (name, rows) in enumerate(sorted(by_file.items()))]
-            write_examples([e for found in pool.map(_versions, jobs, chunksize=8) for e in found], beside)
-        beside.replace(kept)
+            _keep([e for found in pool.map(_versions, jobs, chunksize=8) for e in found], kept)
     examples = read_examples(kept)
     found = []
     for k, (name, rows) in enumerate(sorted(by_file.items())):
@@ -140,7 +138,7 @@ def read_modelled_plants(folder: Path, keep: Path, workers: int = 2) -> list[Mod
     digests = [_digest(truth.read_bytes(), truth.with_name("scene.usdc").read_bytes()) for truth in truths]
     paths = [keep / f"modelled-{digest}.npz" for digest in digests]
     with ProcessPoolExecutor(workers) as pool:
-        list(pool.map(_keep_plant, truths, paths))
+        list(pool.map(_keep_plant, truths, digests, paths))
     return [
         ModelledPlant(truth.parent.name, truth.parents[1].name, digest, tuple(read_examples(path)))
         for truth, digest, path in zip(truths, digests, paths, strict=True)
@@ -151,14 +149,18 @@ def _digest(*contents: bytes) -> str:
     return sha256(b"".join(contents)).hexdigest()[:12]
 
 
-def _keep_plant(truth: Path, path: Path) -> None:
+def _keep_plant(truth: Path, digest: str, path: Path) -> None:
     """Writes one plant as it is, and stretched, unless that was done before."""
     if not path.is_file():
-        beside = path.with_suffix(".part")
-        seed = int(path.stem.split("-")[1], 16)
         scene, source = load(truth.with_name("scene.usdc")), f"modeller {truth.parents[1].name}"
-        write_examples(_stretched_examples(scene, _labels_in(truth), source, seed, _PLANT_STRETCHED), beside)
-        beside.replace(path)
+        _keep(_stretched_examples(scene, _labels_in(truth), source, int(digest, 16), _PLANT_STRETCHED), path)
+
+
+def _keep(examples: list[Example], path: Path) -> None:
+    """Writes examples beside their file, which is whole or not there."""
+    beside = path.with_suffix(".part")
+    write_examples(examples, beside)
+    beside.replace(path)
 
 
 def _versions(job: tuple[Path, int, str, list[dict[str, str]]]) -> list[Example]:
