@@ -4,8 +4,8 @@ import pytest
 
 from cadgraph.stages.relate.foot import BESIDE
 from cadgraph.stages.relate.recover import recover_units
-from piping import GAUGE, PIPE, TANK, VALVE, gauge_mesh, pipe
-from sketch import Sketch
+from piping import GAUGE, PIPE, STEEL, TANK, VALVE, R, gauge_mesh, pipe
+from sketch import Sketch, block
 
 STEM = 0.1  # m
 THIN = {"radius": 0.01, "bore": None}  # m
@@ -52,3 +52,23 @@ def test_only_gauges_and_tanks_have_feet():
     piece = sketch.add(pipe((0, 0, 0), (0, 0, STEM), **THIN), likely={(TANK, "nozzle"): 0.2, (PIPE, "nipple"): 0.3})
     sketch.add(gauge_mesh((0, 0, STEM)), "Valve assembly", "valve", source="author")
     assert piece in recover_units(sketch.piping()).lines
+
+
+def nozzle(tank="author", label=None, beside=False, likely=None):
+    """What the piece between a tank and a valve is of, a pipe along it where asked."""
+    sketch = Sketch()
+    sketch.add(block((0, 0, 0.5), (0.5, 0.5, 1.0)), TANK, "tank", source=tank)
+    said = {(TANK, "nozzle"): 0.2, (PIPE, "nipple"): 0.3} if likely is None else likely
+    piece = sketch.add(block((0, 0, -0.1), (0.06, 0.06, 0.2)), *(label or (None, None)), likely=said)
+    sketch.add(block((0, 0, -0.25), 0.1), VALVE, "valve", source="author")
+    if beside:
+        sketch.pipe((0.03 + R, 0, -0.19), (0.03 + R, 0, -0.01), source="author")
+    return [group.unit_type for group in recover_units(sketch.piping()).groups if piece in group.parts]
+
+
+def test_a_piece_between_a_tank_and_a_valve_is_its_nozzle():
+    assert nozzle() == ["tank"]
+    assert nozzle(likely={(TANK, "nozzle"): 0.1, (PIPE, "nipple"): 0.5}) == []
+    assert nozzle(likely={(TANK, "nozzle"): 0.2, (VALVE, "valve body"): 0.3}) == []
+    assert nozzle(label=(STEEL, "post")) == [], "it is called something else"
+    assert nozzle(beside=True) == [], "it touches a pipe, whose end would tell"

@@ -145,16 +145,21 @@ def test_a_stem_that_leads_nowhere_makes_a_piece_of_line_a_valve():
     assert valves(between(cone((0, 0, 0), (0.2, 0, 0), R, R))) == []
 
 
-def levered(reaches=0.0, source="geometry"):
+def levered(reaches=0.0, source="geometry", name="lever"):
     """A short cylinder between two flanged pipes, with a lever on it, the fourth part, that may rest on a pipe."""
     sketch = between(cone((0, 0, 0), (0.2, 0, 0), R, R), source=source)
-    sketch.add(block((0.1 + reaches / 2, 0, R + 0.02), (0.04 + reaches, 0.02, 0.04)), VALVE, "lever", 0.9)
+    sketch.add(block((0.1 + reaches / 2, 0, R + 0.02), (0.04 + reaches, 0.02, 0.04)), VALVE, name, 0.9)
     return sketch
 
 
 def test_pieces_of_a_valve_on_a_piece_of_line_make_it_one():
     assert valves(levered()) == [(0, 3)]
     assert valves(levered(source="author")) == [(3,)], "somebody says that it is a pipe"
+
+
+@pytest.mark.parametrize("name", ["valve", "valve body"])
+def test_a_valve_on_a_piece_of_line_is_one_of_its_own(name):
+    assert valves(levered(name=name)) == [(3,)]
 
 
 def test_pieces_of_a_valve_that_sit_on_a_pipe_as_well_say_nothing():

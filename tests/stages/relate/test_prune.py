@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 
 import shapes
+import tubes
 from cadgraph.stages.relate.belief import beliefs_of
 from cadgraph.stages.relate.prune import prune_lines
-from piping import PIPE, STEEL, VALVE, R, bend, plate, ring, turned
+from piping import PIPE, STEEL, VALVE, R, bend, merged, plate, ring, turned
 from sketch import VOCABULARY, Sketch, X, block
 
 
@@ -136,3 +137,23 @@ def test_a_bent_body_that_is_likely_a_device_carries_no_line(pipe, found):
     sketch.pipe((-1, 0, 0), (-0.2, 0, 0))
     sketch.pipe((0, 0.2, 0), (0, 1, 0))
     assert left(sketch) == ([0, 1, 2], [*found, 1, 2])
+
+
+def vessel(arms, strainer, pipe):
+    """A drum in one mesh with so many arms, each with a pipe at its end, that may be a strainer, a pipe or a filter."""
+    sketch, turns = Sketch(), 2 * np.pi * np.arange(arms) / arms
+    ways = np.stack([np.cos(turns), np.sin(turns), np.zeros(arms)], axis=1)
+    said = {(PIPE, "strainer"): strainer, (PIPE, "pipe"): pipe, ("Equipment", "filter"): 0.5}
+    sketch.add(merged(*(tubes.pipe([(0, 0, 0), 0.3 * way], R, 24, caps=True) for way in ways)), likely=said)
+    for way in ways:
+        sketch.pipe(0.3 * way, way)
+    return sketch
+
+
+@pytest.mark.parametrize(
+    ("arms", "strainer", "pipe", "carries"), [(6, 0.4, 0.1, False), (6, 0.0, 0.51, True), (4, 0.4, 0.1, True)]
+)
+def test_what_has_more_ends_than_a_cross_is_likelier_a_device_than_a_fitting(arms, strainer, pipe, carries):
+    before, after = left(vessel(arms, strainer, pipe))
+    assert 0 in before
+    assert (0 in after) == carries

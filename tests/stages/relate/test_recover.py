@@ -225,10 +225,24 @@ def test_a_cock_between_a_line_and_a_gauge_is_a_valve_where_it_is_far_likelier_o
 
 @pytest.mark.parametrize(("name", "kind"), [("motor", "pump"), ("pump base", None)])
 def test_what_a_motor_without_a_pump_stands_at_is_one(name, kind):
-    said = {NAMES["pump"]: 0.48, NAMES["valve"]: 0.08, NAMES["equipment"]: 0.25}
+    said = {NAMES["pump"]: 0.3, NAMES["valve"]: 0.08, NAMES["equipment"]: 0.05}
     sketch = around((0.24, 0.3, 0.24), "aligned", likely=said)
     sketch.add(block((0, 0.3, 0), 0.3), PUMP, name, likely={(PUMP, name): 0.9})
     assert found(sketch) == kind
+
+
+@pytest.mark.parametrize(
+    ("said", "kind"),
+    [((0.45, 0.5, 0.0), "tank"), ((0.38, 0.6, 0.0), "equipment"), ((0.03, 0.03, 0.9), None)],
+)
+def test_what_is_surely_some_device_is_the_likeliest(said, kind):
+    likely = dict(zip((NAMES["tank"], NAMES["equipment"], NAMES[FITTING]), said, strict=True))
+    assert recovered("tank", "many", 8.0, said[0], likely=likely) == kind
+
+
+def test_what_is_surely_some_device_but_not_surely_a_valve_is_none():
+    likely = {NAMES["valve"]: 0.3, NAMES["gauge"]: 0.69}
+    assert recovered("valve", "aligned", 4.0, 0.3, likely=likely) is None
 
 
 @pytest.mark.parametrize(("valve", "fitting", "kind"), [(0.06, 0.87, None), (0.3, 0.5, "valve")])

@@ -94,6 +94,29 @@ def test_two_that_are_called_by_the_name_of_the_whole_are_two_however_short(name
     assert valves(plant) == n
 
 
+@pytest.mark.parametrize(("check", "cover", "n"), [("valve", 0, 2), ("valve body", 1, 2), ("valve body", 0, 1)])
+def test_a_check_valve_on_a_ball_valve_in_halves_is_one_of_its_own_by_its_name_or_bonnet(check, cover, n):
+    plant = Plant().pipe((-1, 0, 0), (0, 0, 0)).pipe((0.2, 0, 0), (1, 0, 0))
+    flanges = [turned(shapes.tube(0.08, R, 0.02), (x, 0, 0), X) for x in (0.01, 0.09)]
+    plant.add(merged(turned(shapes.tube(0.05, R, 0.1), (0.05, 0, 0), X), *flanges), VALVE, check)
+    if cover:
+        plant.add(turned(shapes.cylinder(0.02, 0.02), (0.05, 0, 0.055), UP), VALVE, "valve bonnet")
+    for x, length in ((0.14, 0.08), (0.19, 0.02)):
+        plant.add(turned(shapes.tube(0.08, R, length), (x, 0, 0), X), VALVE, "valve body")
+    plant.add(block((0.14, 0, 0.1), (0.02, 0.04, 0.05)), VALVE, "actuator")
+    assert valves(plant) == n
+
+
+@pytest.mark.parametrize(("name", "n"), [("valve", 2), ("valve body", 1)])
+def test_a_wafer_check_valve_on_a_gate_valve_in_pieces_is_one_of_its_own_by_its_name(name, n):
+    plant = Plant().pipe((-1, 0, 0), (0, 0, 0)).pipe((0.2, 0, 0), (1, 0, 0))
+    plant.add(turned(shapes.tube(0.07, R, 0.05), (0.025, 0, 0), X), VALVE, name)
+    plant.add(turned(shapes.tube(0.08, R, 0.15), (0.125, 0, 0), X), VALVE, "valve body")
+    plant.add(turned(shapes.cylinder(0.03, 0.1), (0.125, 0, 0.12), UP), VALVE, "valve bonnet")
+    plant.add(turned(shapes.cylinder(0.09, 0.02), (0.125, 0, 0.18), UP), VALVE, "handwheel")
+    assert valves(plant) == n
+
+
 @pytest.mark.parametrize(("turned_by", "n"), [("both", 2), ("one", 1)])
 def test_a_valve_on_the_inlet_of_an_angle_valve_is_one_of_its_own_where_each_body_is_turned(turned_by, n):
     plant = Plant().add(block((0, 0, 0), (0.2, 0.2, 0.2)), PIPE, "cross").pipe((0, 0, -0.1), (0, 0, -1))

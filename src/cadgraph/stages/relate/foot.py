@@ -1,4 +1,4 @@
-"""What a device stands on its line by: stems and siphons of gauges, nozzles of tanks, that look like pipe."""
+"""What a device stands on its line or the next device by: stems of gauges, nozzles of tanks, that look like pipe."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ BESIDE = 3.0
 """By how much a gauge or a tank at its end makes it likelier that a piece without a label is one of its own."""
 
 _WHY = "it stands at a {} and looks as much like a piece of it as like pipe"
+_UNITS = 2  # that a piece stands between
 _MOST = 3  # pieces between a gauge and its line
 _LONGEST = {"gauge": 0.4, "tank": 0.6}  # of a stem, and of a nozzle [m]
 
@@ -55,13 +56,11 @@ def _with_feet(piping: Piping, found: Sequence[tuple[int, int, float]]) -> Pipin
 
 
 def _feet(piping: Piping, beliefs: Beliefs) -> Iterator[tuple[int, int, float]]:
-    """Parts with a line that end at a gauge or tank and look as much like a piece of it, the number of its group, and
-    how sure that is.
-    """
+    """Parts at a gauge or tank that look as much like a piece of it as like pipe, its number, and how sure that is."""
     vocabulary = piping.given.vocabulary
     lines = beliefs.of_groups(vocabulary.connector_groups)
     own = {kind: beliefs.of_groups(vocabulary.groups_of(kind)) for kind in {*vocabulary.unit_of_group.values()}}
-    for part, number in _at_units(piping):
+    for part, number in (*_at_units(piping), *_between_units(piping)):
         kind = piping.groups[number].unit_type
         if not _may_be_foot(piping, beliefs, part, kind):
             continue
@@ -76,6 +75,17 @@ def _at_units(piping: Piping) -> Iterator[tuple[int, int]]:
     for mount in piping.joints.mounts:
         if mount.part in owner:
             yield int(piping.joints.ends.part[mount.row]), owner[mount.part]
+
+
+def _between_units(piping: Piping) -> Iterator[tuple[int, int]]:
+    """The parts without a label or a line that touch two units and no line, each with the numbers of their groups."""
+    owner = {part: number for number, group in enumerate(piping.groups) for part in group.parts}
+    for part, label in enumerate(piping.given.labels):
+        if label is None and part not in owner and part not in piping.lines:
+            near = piping.given.neighbors.get(part, ())
+            units = {owner[other] for other in near if other in owner}
+            if len(units) == _UNITS and piping.lines.keys().isdisjoint(near):
+                yield from ((part, number) for number in sorted(units))
 
 
 def _share_of(kind: str, said: Mapping[str, float], against: float) -> float:
@@ -96,4 +106,10 @@ def _may_be_foot(piping: Piping, beliefs: Beliefs, part: int, kind: str) -> bool
     """Whether a part at a gauge or tank is short enough, and neither a user nor any label calls it a connector."""
     label = piping.given.labels[part]
     called = label is not None and label.group in piping.given.vocabulary.connector_groups
-    return bool(beliefs.open[part]) and not called and piping.lines[part].length <= _LONGEST.get(kind, 0.0)
+    return bool(beliefs.open[part]) and not called and _length(piping, part) <= _LONGEST.get(kind, 0.0)
+
+
+def _length(piping: Piping, part: int) -> float:
+    """How long a part is along its line, or the longest side of its box [m]."""
+    line = piping.lines.get(part)
+    return line.length if line is not None else float(piping.given.parts.properties.obb_extents[part].max())

@@ -40,6 +40,7 @@ _ON_IT: Mapping[str, str] = {
 }
 # Fittings that are as thick or as narrow as valves: no width tells which a piece is, so that the labeler's word counts.
 _ALIKE = ("strainer", "expansion joint", "flange", "coupling", "union", "hose")
+_BODIES = frozenset({"valve", "valve body"})
 _RIVAL = 0.25  # least probability, and more than of a valve, from which on something else may be meant (ours)
 _SURE = 0.6  # least probability of what is taken for a valve
 _LEAST = 1e-3  # no probability counts for less
@@ -301,9 +302,18 @@ def _stems(piping: Piping, beliefs: Beliefs, piece: _Piece) -> set[int]:
 
 
 def _operators(piping: Piping, piece: _Piece) -> set[int]:
-    """Parts of valves that no line leads to and that sit on a piece and on no other line: a lever, a bonnet."""
+    """Parts of valves that no line leads to and that sit on a piece and on no other line: a lever, a bonnet; not of a
+    valve that has a body of its own, as a cock on a flange has.
+    """
     on_it = {other for own in piece.parts for other in piping.given.neighbors.get(own, ())}
-    near = [group for group in piping.groups if group.unit_type == "valve" and not on_it.isdisjoint(group.parts)]
+    names = piping.roles.names
+    near = [
+        group
+        for group in piping.groups
+        if group.unit_type == "valve"
+        and not on_it.isdisjoint(group.parts)
+        and _BODIES.isdisjoint(names[part] for part in group.parts)
+    ]
     return {part for group in near if _rests_on(piping, group, piece) for part in group.parts}
 
 

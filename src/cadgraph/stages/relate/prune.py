@@ -19,6 +19,12 @@ _LEAST_PIPE = 0.3  # a line that the labeler finds less likely than this leads t
 _LEAST_END = 0.5  # likewise a disc that touches one thing only: the flange at the end of a run
 _LEADS = 2
 _HARDLY, _DEVICE = 0.25, 0.5  # a likely device is one by the second at least, and piping by this share of it
+_MOST_ENDS = 4  # that a fitting has: a cross
+# Names of connectors that no more ends than that contradict.
+_FEW_ENDS = frozenset({
+    "elbow", "tee", "cross", "reducer", "flange", "blind flange", "gasket", "coupling", "union", "nipple", "pipe cap",
+    "expansion joint", "hose", "strainer",
+})  # fmt: skip
 _OPPOSITE = -0.95  # cosine between two ends on one axis
 _LIKELY = 0.7  # from this probability on something is taken for a line, or a piece of a unit, without more
 
@@ -69,7 +75,17 @@ def _without_bodies(piping: Piping, beliefs: Beliefs) -> Piping:
     """
     devices = likely_devices(piping, beliefs)
     bodies = {part for part in piping.lines if devices[part] and not _passes_straight(piping.joints, part)}
-    return _dropped(piping, bodies)
+    return _dropped(piping, bodies | _vessels(piping, beliefs))
+
+
+def _vessels(piping: Piping, beliefs: Beliefs) -> set[int]:
+    """Lines with more ends than any fitting has, of what is likelier a device than a pipe with branches."""
+    vocabulary = piping.given.vocabulary
+    units = beliefs.of_groups(vocabulary.unit_of_group.keys())
+    headers = beliefs.of_groups(vocabulary.connector_groups, _FEW_ENDS)
+    made, of_part = piping.joints.made, piping.joints.ends.of_part
+    many = [part for part in piping.lines if sum(row in made for row in of_part.get(part, ())) > _MOST_ENDS]
+    return {part for part in many if beliefs.open[part] and units[part] > headers[part]}
 
 
 def _passes_straight(found: Attachments, part: int) -> bool:

@@ -71,6 +71,7 @@ _MOTOR = frozenset({"motor", "motor fan cover", "coupling guard"})
 # Least probability of what is taken for a device, and of a device that the labeler finds likely to be another one, at
 # least so likely.
 _SURE, _OTHER, _LIKELY = 0.6, 0.8, 0.5
+_SOME_DEVICE = 0.9  # least probability that an unnamed body is a device, whichever
 _LEAST = 1e-3  # no probability counts for less
 _ROOT = 0.3  # how likely a body that a gauge is screwed into must be a device of its own
 _FAR = 8.0  # a unit that is so many times likelier itself than a piece of a body stays apart from it
@@ -222,13 +223,23 @@ def _type_of(piping: Piping, beliefs: Beliefs, sight: _Sight) -> tuple[str, Reco
     share = weights[best] / sum(weights.values())
     found = Recovered(share, tell_terms(terms[best]))
     body = sight.body
-    if share < _least(piping, beliefs, body) or best in (_NOTHING, _STEELWORK, body.unit_type):
+    unsure = share < _least(piping, beliefs, body) and not _is_some_device(sight, weights, best)
+    if unsure or best in (_NOTHING, _STEELWORK, body.unit_type):
         return _NOTHING, found
     if _is_named(beliefs) and not _touched(piping, body, best):
         # Where people have named nearly everything, what they left without a name is no device of theirs; a line that
         # ends on both sides of it passes through all the same.
         return (FITTING if sight.arrangement == "aligned" else _NOTHING), found
     return best, found
+
+
+def _is_some_device(sight: _Sight, weights: Mapping[str, float], best: str) -> bool:
+    """Whether it is as good as sure that a body that nobody has named is a device, whichever: a tank or a boiler. What
+    may be no valve is none, for valves are what people rely on to close a line.
+    """
+    others = sum(weights.get(name, 0.0) for name in (_NOTHING, _STEELWORK, FITTING))
+    known = sight.body.unit_type is not None or best == "valve"
+    return not known and others <= (1 - _SOME_DEVICE) * sum(weights.values())
 
 
 def _least(piping: Piping, beliefs: Beliefs, body: Body) -> float:

@@ -28,7 +28,8 @@ _LOPSIDED = 1.5
 _WHOLE = 1.2
 _BODY = "valve body"
 _STRAIGHT = 0.99  # cosine between the directions of the two ends of a straight piece
-_TURNING = frozenset({"handwheel", "lever", "actuator", "gearbox"})
+_BONNET = "valve bonnet"
+_TURNING = frozenset({"handwheel", "lever", "actuator", "gearbox", _BONNET})
 _CASES = frozenset({"gauge", "gauge case", "gauge face"})
 _SPLIT = frozenset({"valve", "pump", "gauge"})
 
@@ -154,7 +155,7 @@ def _is_whole(piping: Piping, body: int, row: int) -> bool:
 
 def _named(piping: Piping, group: Group, own: Mapping[int, Sequence[int]]) -> set[int]:
     """The parts that are devices of their own by their names, where there are several such."""
-    found = (_surely_whole(piping, group, own), _turned(piping, group))
+    found = (_surely_whole(piping, group, own), _turned(piping, group, own))
     return {part for some in found if len(some) > 1 for part in some}
 
 
@@ -178,22 +179,24 @@ def _is_called(piping: Piping, part: int, names: Collection[str]) -> bool:
     return label is not None and label.name in names and not label.likely
 
 
-def _turned(piping: Piping, group: Group) -> set[int]:
-    """The parts called a valve's body that are the nearest to what turns a valve, by contacts; each turns by itself.
+def _turned(piping: Piping, group: Group, own: Mapping[int, Sequence[int]]) -> set[int]:
+    """The parts called a valve's body that are the nearest to what turns or covers a valve, by contacts, and what lines
+    end at and is called a valve beside such: each is one.
 
-    What hangs together turns one of them: a gearbox with its wheel.
+    What hangs together is of one of them: a gearbox with its wheel, a bonnet with its stem.
     """
     names, near = piping.roles.names, piping.given.neighbors
-    bodies = [part for part in group.parts if names[part] == _BODY]
+    whole = {part for part in own if _is_called(piping, part, {"valve"})}
+    bodies = [part for part in group.parts if part in whole or names[part] == _BODY]
     if len(bodies) < 2:
         return set()
     steps = _steps_from(bodies, group, near)
-    moving = [part for part in group.parts if names[part] in OPERATORS]
+    moving = [part for part in group.parts if names[part] in OPERATORS or names[part] == _BONNET]
     found: set[int] = set()
     for some in connected_sets(moving, _pairs_within(moving, near)):
         if not _TURNING.isdisjoint([names[part] for part in some]):
             found.update(_nearest(some, steps, len(group.parts)))
-    return found
+    return found if found <= whole else found | whole
 
 
 def _steps_from(cores: Sequence[int], group: Group, near: Mapping[int, Sequence[int]]) -> dict[int, dict[int, int]]:
