@@ -1,7 +1,7 @@
 """Plants by others, with embedded and with true labels: ``python packages/cadlab/benchmarks/by_others.py [FOLDER...]``
 
 Each FOLDER holds plants as ``NAME/scene.*`` with ``NAME/scene.truth.json`` (docs/truth.md), or is such a plant itself;
-without any it is that of the eight plants beside this file. ``--write`` puts the table into ``docs/functional.md``.
+without any it is that of the fourteen plants beside this file. ``--write`` puts the table into ``docs/functional.md``.
 A row for each plant and mode, and one for all: parts with a true name but for fasteners; units that are there with
 their type, and units that are none; pairs of neighbours along the pipes that are right, and that are none; directions;
 kinds of valves; and answers of ``isolate`` that close a check, control or relief valve or say that something is shut
