@@ -41,14 +41,21 @@ def test_a_valve_that_stands_on_a_pipe_of_the_section_may_let_out_what_is_in_it(
     assert find_isolation(plant.graph(), "T-001", assume_shutoff=True).isolated is None
 
 
-@pytest.mark.parametrize(("change", "n"), [({}, 0), ({"likely": True}, 1), ({"source": "network"}, 1)])
-def test_a_valve_of_which_nobody_is_sure_that_it_is_one(change, n):
-    graph = tank_line().graph()
+@pytest.mark.parametrize(
+    ("change", "lever", "n"),
+    [({}, False, 0), ({"likely": True}, False, 1), ({"source": "network"}, False, 1), ({"source": "network"}, True, 1)],
+)
+def test_a_valve_of_which_nobody_is_sure_that_it_is_one(change, lever, n):
+    plant = tank_line()
+    if lever:
+        plant.add(shapes.box((0.02, 0.02, 0.3), (1.589, 0, 1.15)), VALVE, "lever")
+    graph = plant.graph()
     for part in graph.unit("V-001").parts:
         node = graph.part(part)
-        graph.nodes[part] = node.model_copy(update={"label": node.label.model_copy(update=change)})
+        if node.label.name != "lever":
+            graph.nodes[part] = node.model_copy(update={"label": node.label.model_copy(update=change)})
     found = find_isolation(graph, "T-001", assume_shutoff=True).doubts
-    assert sum("nobody is sure of any part" in doubt.text for doubt in found) == n
+    assert sum("nobody is sure of its body" in doubt.text for doubt in found) == n
 
 
 def test_a_valve_over_a_piece_that_has_no_label():

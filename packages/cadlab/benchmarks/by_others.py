@@ -3,9 +3,9 @@
 Each FOLDER holds plants as ``NAME/scene.*`` with ``NAME/scene.truth.json`` (docs/truth.md), or is such a plant itself;
 without any it is that of the fourteen plants beside this file. ``--write`` puts the table into ``docs/functional.md``.
 A row for each plant and mode, and one for all: parts with a true name but for fasteners; units that are there with
-their type, and units that are none; pairs of neighbours along the pipes that are right, and that are none; directions;
-kinds of valves; and answers of ``isolate`` that close a check, control or relief valve or say that something is shut
-off that is still fed.
+their type, and units that are none; pairs of neighbours along the pipes that are right, and that are none, and the same
+where tanks and equipment count as one, for a sand filter looks like a tank; directions; kinds of valves; and answers of
+``isolate`` that close a check, control or relief valve or say that something is shut off that is still fed.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from pathlib import Path
 
 from isolation import MODES, PAGE, Tally
 
-from cadgraph import load
+from cadgraph import SceneGraph, load
 from cadgraph.model.truth import Truth
 from cadgraph.model.vocabulary import FASTENERS
 from cadgraph.pipeline import build
@@ -28,10 +28,12 @@ from cadlab.evaluate.labels import observe_parts, true_labels
 from cadlab.evaluate.pairing import pair
 from cadlab.markdown import put, table
 
+VESSELS = frozenset({"tank", "equipment"})
 OTHERS = Path(__file__).with_name("others")
 TITLES = [
     "plant", "labels", "parts", "group right", "name right", "wrong / open", "units / right / none",
-    "connections / right / none", "directions / right / wrong", "kinds right / wrong", "unsafe answers",
+    "connections / right / none", "vessels alike", "directions / right / wrong", "kinds right / wrong",
+    "unsafe answers",
 ]  # fmt: skip
 
 
@@ -77,6 +79,10 @@ def measured(task: tuple[Path, str]) -> Counter[str]:
             "connections": edges.n_true, "connections right": edges.n_correct,
             "connections that are none": edges.n_predicted - edges.n_correct,
         })  # fmt: skip
+        alike = evaluate(graph, as_taken(graph, truth)).total.connected
+        if alike is not None:
+            counts["alike right"] = alike.edges.n_correct
+            counts["alike that are none"] = alike.edges.n_predicted - alike.edges.n_correct
         if ways is not None:
             counts.update({
                 "directions": ways.n_known, "directions right": ways.n_right,
@@ -90,6 +96,18 @@ def measured(task: tuple[Path, str]) -> Counter[str]:
     return counts
 
 
+def as_taken(graph: SceneGraph, truth: Truth) -> Truth:
+    """The truth in which each vessel is of the type that most of its meshes were taken for, tank or equipment."""
+    mesh_of = {part.id: part.meshes for part in graph.parts()}
+    taken = {mesh: unit.unit_type for unit in graph.units() for part in unit.parts for mesh in mesh_of[part]}
+    units = []
+    for unit in truth.units or ():
+        types = Counter(taken[mesh] for mesh in unit.meshes if taken.get(mesh) in VESSELS)
+        vessel = unit.type in VESSELS and bool(types)
+        units.append(unit.model_copy(update={"type": types.most_common(1)[0][0]}) if vessel else unit)
+    return truth.model_copy(update={"units": tuple(units)})
+
+
 def line(name: str, mode: str, n: Counter[str]) -> list[object]:
     """One row of the table."""
     parts = max(1, n["parts"])
@@ -97,6 +115,7 @@ def line(name: str, mode: str, n: Counter[str]) -> list[object]:
         name, MODES[mode], n["parts"], f"{100 * n['group'] / parts:.1f} %", f"{100 * n['name'] / parts:.1f} %",
         f"{n['wrong']} / {n['open']}", f"{n['units']} / {n['units right']} / {n['units that are none']}",
         f"{n['connections']} / {n['connections right']} / {n['connections that are none']}",
+        f"{n['alike right']} / {n['alike that are none']}",
         f"{n['directions']} / {n['directions right']} / {n['directions wrong']}",
         f"{n['kinds right']} / {n['kinds wrong']}", n["unsafe"],
     ]  # fmt: skip

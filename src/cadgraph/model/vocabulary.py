@@ -17,10 +17,14 @@ from cadgraph._io.limits import VOCABULARY, read_text_within
 from cadgraph._io.strict_yaml import parse_yaml
 from cadgraph.errors import LabelError
 
-__all__ = ["FASTENERS", "Group", "Vocabulary", "default_vocabulary", "read_vocabulary", "spell_label"]
+__all__ = ["FASTENERS", "OPERATORS", "Group", "Vocabulary", "default_vocabulary", "read_vocabulary", "spell_label"]
 
 FASTENERS = frozenset({"bolt", "nut", "washer", "stud", "screw"})
 """Names of what holds a joint together."""
+OPERATORS = frozenset(
+    {"valve stem", "handwheel", "lever", "yoke", "gland", "gearbox", "actuator", "position indicator"}
+)
+"""Names of what moves a valve."""
 
 _FORBIDDEN = ":;,&|!"  # what USD semantics taxonomies and labels may not hold
 _MAX_LENGTH = 80  # of a label, ours: it has to fit into a legend

@@ -7,6 +7,7 @@ from typing import Literal
 
 from cadgraph.model.labels import Label
 from cadgraph.model.records import Unit
+from cadgraph.model.vocabulary import OPERATORS
 from cadgraph.query.network import Network
 
 __all__ = ["Duty", "Suspect", "blocked_relief", "duty_of", "is_doubted", "likely_kinds", "suspect_of", "worked_by_hand"]
@@ -57,14 +58,16 @@ def duty_of(network: Network, place: str) -> Duty | None:
 
 
 def is_doubted(network: Network, place: str) -> bool:
-    """Whether parts of a valve have labels and nobody is sure of any: what stands there may be something else.
+    """Whether parts of a valve have labels and nobody is sure of its body, or of any part where only what moves it has
+    one: what stands there may be something else, a duplex filter with a lever.
 
     Args:
         network: of a finished graph.
         place: id of a valve.
     """
     labels = _labels(network, place)
-    return bool(labels) and all(label.likely or label.source == "network" for label in labels)
+    standing = [label for label in labels if label.name not in OPERATORS] or labels
+    return bool(labels) and all(label.likely or label.source == "network" for label in standing)
 
 
 def _labels(network: Network, place: str) -> list[Label]:

@@ -19,7 +19,7 @@ __all__ = ["Closing", "Isolation", "Opening", "Passed", "find_isolation"]
 PASSED_OVER = "is a check valve: passed over"
 
 
-_AS_VALVE = "taken for a valve, but nobody is sure of any part of it: a filter or a meter may look so"
+_AS_VALVE = "taken for a valve, but nobody is sure of its body: a filter or a meter may look so"
 _AS_RELIEF = (
     "taken for a relief valve and so for closed, yet it has a lever or wheel and no line behind it: were it a hand "
     "valve to the open, it would have to be closed, too"

@@ -7,10 +7,10 @@ from collections.abc import Collection, Mapping, Sequence
 import numpy as np
 
 from cadgraph.model.parts import UnitParts, owners_of
+from cadgraph.model.vocabulary import OPERATORS
 from cadgraph.stages.relate.attach import flat_contacts, regions_of
 from cadgraph.stages.relate.network import FLANGED_SCORE, SIDE_SCORE, Meeting
 from cadgraph.stages.relate.piping import Piping
-from cadgraph.stages.relate.unit import OPERATORS
 
 __all__ = ["meet_directly"]
 

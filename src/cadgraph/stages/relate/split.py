@@ -11,12 +11,12 @@ import numpy as np
 
 from cadgraph.geometry.components import connected_sets
 from cadgraph.model.parts import Parts
+from cadgraph.model.vocabulary import OPERATORS
 from cadgraph.stages.relate.attach import Attachments, flat_contacts
 from cadgraph.stages.relate.body import arrangement_of
 from cadgraph.stages.relate.flanged import bodies_between
 from cadgraph.stages.relate.joint import Ends, extent_about
 from cadgraph.stages.relate.piping import Group, Piping
-from cadgraph.stages.relate.unit import OPERATORS
 
 __all__ = ["split_groups"]
 

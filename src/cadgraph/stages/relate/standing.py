@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 
 from cadgraph.model.parts import UnitParts, owners_of
+from cadgraph.model.vocabulary import OPERATORS
 from cadgraph.stages.relate.attach import Side
 from cadgraph.stages.relate.joint import Ends, ahead_of, extent_about
 from cadgraph.stages.relate.piping import Piping
-from cadgraph.stages.relate.unit import OPERATORS
 
 __all__ = ["find_standing"]
 

@@ -12,20 +12,16 @@ import numpy as np
 from cadgraph.geometry.components import connected_sets
 from cadgraph.model.parts import Parts
 from cadgraph.model.scene import Floats
-from cadgraph.model.vocabulary import FASTENERS
+from cadgraph.model.vocabulary import FASTENERS, OPERATORS
 from cadgraph.stages.relate.body_shape import box_around
 from cadgraph.stages.relate.enclosed import holds_disc
 from cadgraph.stages.relate.line import is_disc
 from cadgraph.stages.relate.piping import Group, Piping, RelateInput
 from cadgraph.stages.relate.role import Roles
 
-__all__ = ["OPERATORS", "connected_groups", "is_loose", "mend_units", "take_in_enclosed"]
+__all__ = ["connected_groups", "is_loose", "mend_units", "take_in_enclosed"]
 
 _FASTENERS = FASTENERS | {"gasket"}
-OPERATORS = frozenset(
-    {"valve stem", "handwheel", "lever", "yoke", "gland", "gearbox", "actuator", "position indicator"}
-)
-"""What moves a valve, by name."""
 
 # What stands on a vessel is none by itself, and machines have it, too; what drives a pump drives other machines.
 _ON_VESSELS = frozenset({"nozzle", "manway", "saddle", "skirt", "tank leg", "lifting lug"})
