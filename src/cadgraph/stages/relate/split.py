@@ -196,7 +196,9 @@ def _turned(piping: Piping, group: Group, own: Mapping[int, Sequence[int]]) -> s
     for some in connected_sets(moving, _pairs_within(moving, near)):
         if not _TURNING.isdisjoint([names[part] for part in some]):
             found.update(_nearest(some, steps, len(group.parts)))
-    return found if found <= whole else found | whole
+    # Between the caps of a three-piece valve no line ends at what is turned, whatever they are called.
+    turned = found - whole
+    return found | whole if turned and turned <= own.keys() else found
 
 
 def _steps_from(cores: Sequence[int], group: Group, near: Mapping[int, Sequence[int]]) -> dict[int, dict[int, int]]:
