@@ -72,3 +72,11 @@ def test_a_piece_between_a_tank_and_a_valve_is_its_nozzle():
     assert nozzle(likely={(TANK, "nozzle"): 0.2, (VALVE, "valve body"): 0.3}) == []
     assert nozzle(label=(STEEL, "post")) == [], "it is called something else"
     assert nozzle(beside=True) == [], "it touches a pipe, whose end would tell"
+
+
+def test_a_piece_between_two_tanks_is_of_one_of_them():
+    sketch = Sketch()
+    sketch.add(block((0, 0, 0.5), (0.5, 0.5, 1.0)), TANK, "tank", source="author")
+    piece = sketch.add(block((0, 0, -0.1), (0.06, 0.06, 0.2)), likely={(TANK, "nozzle"): 0.2, (PIPE, "nipple"): 0.3})
+    sketch.add(block((0, 0, -0.7), (0.5, 0.5, 1.0)), TANK, "tank", source="author")
+    assert sum(piece in group.parts for group in recover_units(sketch.piping()).groups) == 1

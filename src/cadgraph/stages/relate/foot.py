@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import replace
 
 from cadgraph.stages.relate.belief import Beliefs
@@ -27,14 +27,15 @@ def take_feet(piping: Piping, beliefs: Beliefs) -> Piping:
         beliefs: what each part may be.
     """
     for _ in range(_MOST):
-        found = list(_feet(piping, beliefs))
+        # Between two tanks a piece is of one of them.
+        found = {part: (part, number, share) for part, number, share in _feet(piping, beliefs)}
         if not found:
             break
-        piping = _with_feet(piping, found)
+        piping = _with_feet(piping, found.values())
     return piping
 
 
-def _with_feet(piping: Piping, found: Sequence[tuple[int, int, float]]) -> Piping:
+def _with_feet(piping: Piping, found: Collection[tuple[int, int, float]]) -> Piping:
     """The piping in which some parts are of groups, by their number."""
     types = [group.unit_type for group in piping.groups]
     groups = [set(group.parts) for group in piping.groups]

@@ -20,7 +20,7 @@ _LEAST_END = 0.5  # likewise a disc that touches one thing only: the flange at t
 _LEADS = 2
 _HARDLY, _DEVICE = 0.25, 0.5  # a likely device is one by the second at least, and piping by this share of it
 _MOST_ENDS = 4  # that a fitting has: a cross
-# Names of connectors that no more ends than that contradict.
+# Names of connectors that have no more ends than that.
 _FEW_ENDS = frozenset({
     "elbow", "tee", "cross", "reducer", "flange", "blind flange", "gasket", "coupling", "union", "nipple", "pipe cap",
     "expansion joint", "hose", "strainer",

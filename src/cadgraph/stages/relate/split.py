@@ -29,7 +29,7 @@ _WHOLE = 1.2
 _BODY = "valve body"
 _STRAIGHT = 0.99  # cosine between the directions of the two ends of a straight piece
 _BONNET = "valve bonnet"
-_TURNING = frozenset({"handwheel", "lever", "actuator", "gearbox", _BONNET})
+_ITS_OWN = frozenset({"handwheel", "lever", "actuator", "gearbox", _BONNET})  # what turns or covers one valve
 _CASES = frozenset({"gauge", "gauge case", "gauge face"})
 _SPLIT = frozenset({"valve", "pump", "gauge"})
 
@@ -194,7 +194,7 @@ def _turned(piping: Piping, group: Group, own: Mapping[int, Sequence[int]]) -> s
     moving = [part for part in group.parts if names[part] in OPERATORS or names[part] == _BONNET]
     found: set[int] = set()
     for some in connected_sets(moving, _pairs_within(moving, near)):
-        if not _TURNING.isdisjoint([names[part] for part in some]):
+        if not _ITS_OWN.isdisjoint([names[part] for part in some]):
             found.update(_nearest(some, steps, len(group.parts)))
     # Between the caps of a three-piece valve no line ends at what is turned, whatever they are called.
     turned = found - whole
