@@ -15,7 +15,7 @@ from cadgraph.stages.relate import RelateInput, connect_units
 from cadgraph.stages.relate.role import USERS
 from cadplants import make
 from cadplants.faults.defects import DEFECTS
-from piping import PIPE, STEEL, VALVE, bend, pipe
+from piping import PIPE, PUMP, STEEL, TANK, VALVE, bend, pipe
 from sketch import VOCABULARY, Sketch, around, block
 
 
@@ -172,3 +172,13 @@ def test_in_a_whole_plant_what_connections_run_through_is_called_a_connector(mod
         or (labels[part].group not in VOCABULARY.connector_groups and labels[part].source not in (*USERS, "author"))
     ]
     assert wrong == []
+
+
+@pytest.mark.parametrize(("group", "name", "stays"), [("Equipment", "heat exchanger", True), (PUMP, "pump", False)])
+def test_a_nozzle_of_a_machine_stays_a_nozzle(group, name, stays):
+    sketch = Sketch()
+    sketch.add(block((0, 0, 0), (1, 0.6, 0.6)), group, name)
+    nozzle = sketch.add(block((0.55, 0, 0), (0.1, 0.2, 0.2)), TANK, "nozzle", sure=0.7)
+    sketch.pipe((0.6, 0, 0), (2, 0, 0))
+    found = sketch.connected()
+    assert [label.name for label in found.labels][nozzle] == ("nozzle" if stays else None)

@@ -9,11 +9,13 @@ from cadgraph.stages.relate.belief import Beliefs, beliefs_of
 from cadgraph.stages.relate.line import is_plain_tube, is_straight
 from cadgraph.stages.relate.piping import Group, Piping
 from cadgraph.stages.relate.role import USERS
+from cadgraph.stages.relate.unit import ON_VESSELS
 
 __all__ = ["relabel_parts"]
 
 # How sure a label is that follows from a line through the part, from its unit, or from most of its repeats (ours).
 _ON_LINE, _IN_UNIT, _OUTVOTED = 0.8, 0.7, 0.7
+_MACHINES = "equipment"  # have nozzles, legs and lugs as vessels do
 _NAMED = 0.5  # least share of a name among those of its group
 
 
@@ -54,7 +56,7 @@ def _relabel_unit(piping: Piping, beliefs: Beliefs, group: Group, labels: list[L
     """Labels of a unit's parts that are of its own group; what holds it together keeps its label."""
     own = piping.given.vocabulary.groups_of(group.unit_type)
     for part in group.parts if own else ():
-        if _is_strange(piping, labels[part], part, own) and _may_change(piping, beliefs, part):
+        if _is_strange(piping, labels[part], part, group.unit_type) and _may_change(piping, beliefs, part):
             said, name = _likeliest(beliefs, part, own)
             if len(group.parts) == len(own) == 1:
                 # What stands for the whole is called so.
@@ -63,14 +65,17 @@ def _relabel_unit(piping: Piping, beliefs: Beliefs, group: Group, labels: list[L
             labels[part] = _label(labels[part], said, name, sure, why)
 
 
-def _is_strange(piping: Piping, label: Label | None, part: int, own: Sequence[str]) -> bool:
+def _is_strange(piping: Piping, label: Label | None, part: int, unit_type: str) -> bool:
     """Whether a part's label is that of a line or of another type of unit, or says nothing of a part that was found.
 
-    What surely is a gasket stays one.
+    What surely is a gasket stays one, and the nozzles and saddles of a machine stay nozzles and saddles.
     """
     if label is not None and label.name == "gasket" and not label.likely:
         return False
+    if label is not None and label.name in ON_VESSELS and unit_type == _MACHINES:
+        return False
     vocabulary = piping.given.vocabulary
+    own = vocabulary.groups_of(unit_type)
     foreign = vocabulary.connector_groups | (vocabulary.unit_of_group.keys() - set(own))
     return (_says(label, foreign) or part in piping.recovered) and not _says(label, own)
 

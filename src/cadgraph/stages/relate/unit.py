@@ -19,13 +19,15 @@ from cadgraph.stages.relate.line import is_disc
 from cadgraph.stages.relate.piping import Group, Piping, RelateInput
 from cadgraph.stages.relate.role import Roles
 
-__all__ = ["connected_groups", "is_loose", "mend_units", "take_in_enclosed"]
+__all__ = ["ON_VESSELS", "connected_groups", "is_loose", "mend_units", "take_in_enclosed"]
 
 _FASTENERS = FASTENERS | {"gasket"}
 
-# What stands on a vessel is none by itself, and machines have it, too; what drives a pump drives other machines.
-_ON_VESSELS = frozenset({"nozzle", "manway", "saddle", "skirt", "tank leg", "lifting lug"})
-_OF_VESSELS = _ON_VESSELS | {"dished head"}
+ON_VESSELS = frozenset({"nozzle", "manway", "saddle", "skirt", "tank leg", "lifting lug"})
+"""Names of what stands on a vessel: it is none by itself, and machines have it, too."""
+
+# What drives a pump drives other machines.
+_OF_VESSELS = ON_VESSELS | {"dished head"}
 _WITHIN, _NEXT_TO = 0.9, 0.02  # share of a box's width within another's outline; how far apart they are at most [m]
 _DRIVES = frozenset({"motor", "motor fan cover", "terminal box", "shaft", "coupling guard", "pump base"})
 _DIALS = frozenset({"gauge face", "gauge needle"})
@@ -71,7 +73,7 @@ def is_loose(group: Group, names: Sequence[str | None], reached: Collection[int]
     if any(part in reached for part in group.parts):
         return False
     if group.unit_type == "tank":
-        return all(names[part] in _ON_VESSELS - {"nozzle"} for part in group.parts)
+        return all(names[part] in ON_VESSELS - {"nozzle"} for part in group.parts)
     if group.unit_type == "gauge":
         return all(names[part] in _DIALS and _is_oblong(parts, part) for part in group.parts)
     return group.unit_type == "valve" and _is_operator(group.parts, names)
@@ -299,7 +301,7 @@ def _machines_at(work: _Work, k: int, piping: Piping) -> list[int]:
     """The machines at a group that is but what machines of several kinds have; none where it is more than that."""
     names = piping.roles.names
     own = {names[part] for part in work.parts[k]}
-    if work.types[k] == "tank" and own <= _ON_VESSELS:
+    if work.types[k] == "tank" and own <= ON_VESSELS:
         return _of_types(work, _near(work, k, piping), ("equipment", "pump"))
     if work.types[k] != "pump" or not own <= _DRIVES:
         return []
