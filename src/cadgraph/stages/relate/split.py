@@ -186,7 +186,8 @@ def _turned(piping: Piping, group: Group, own: Mapping[int, Sequence[int]]) -> s
     What hangs together is of one of them: a gearbox with its wheel, a bonnet with its stem.
     """
     names, near = piping.roles.names, piping.given.neighbors
-    whole = {part for part in own if _is_called(piping, part, {"valve"})}
+    # Where labels are wrong at random a bolt may be called so.
+    whole = set() if piping.roles.doubtful else {part for part in own if _is_called(piping, part, {"valve"})}
     bodies = [part for part in group.parts if part in whole or names[part] == _BODY]
     if len(bodies) < 2:
         return set()
