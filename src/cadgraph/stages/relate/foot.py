@@ -81,12 +81,13 @@ def _at_units(piping: Piping) -> Iterator[tuple[int, int]]:
 def _between_units(piping: Piping) -> Iterator[tuple[int, int]]:
     """The parts without a label or a line that touch two units and no line, each with the numbers of their groups."""
     owner = {part: number for number, group in enumerate(piping.groups) for part in group.parts}
-    for part, label in enumerate(piping.given.labels):
-        if label is None and part not in owner and part not in piping.lines:
-            near = piping.given.neighbors.get(part, ())
-            units = {owner[other] for other in near if other in owner}
-            if len(units) == _UNITS and piping.lines.keys().isdisjoint(near):
-                yield from ((part, number) for number in sorted(units))
+    used = owner.keys() | piping.lines.keys()
+    for part in (part for part, label in enumerate(piping.given.labels) if label is None and part not in used):
+        near = set(piping.given.neighbors.get(part, ()))
+        units = sorted({owner[other] for other in near & owner.keys()})
+        if len(units) == _UNITS and near.isdisjoint(piping.lines):
+            yield part, units[0]
+            yield part, units[1]
 
 
 def _share_of(kind: str, said: Mapping[str, float], against: float) -> float:

@@ -306,15 +306,15 @@ def _operators(piping: Piping, piece: _Piece) -> set[int]:
     valve that has a body of its own, as a cock on a flange has.
     """
     on_it = {other for own in piece.parts for other in piping.given.neighbors.get(own, ())}
-    names = piping.roles.names
-    near = [
-        group
-        for group in piping.groups
-        if group.unit_type == "valve"
-        and not on_it.isdisjoint(group.parts)
-        and _BODIES.isdisjoint(names[part] for part in group.parts)
-    ]
+    near = [group for group in _without_body(piping) if not on_it.isdisjoint(group.parts)]
     return {part for group in near if _rests_on(piping, group, piece) for part in group.parts}
+
+
+def _without_body(piping: Piping) -> list[Group]:
+    """The groups of valves none of whose parts is called a body."""
+    names = piping.roles.names
+    valves = [group for group in piping.groups if group.unit_type == "valve"]
+    return [group for group in valves if _BODIES.isdisjoint(names[part] for part in group.parts)]
 
 
 def _rests_on(piping: Piping, group: Group, piece: _Piece) -> bool:

@@ -185,21 +185,25 @@ def _turned(piping: Piping, group: Group, own: Mapping[int, Sequence[int]]) -> s
 
     What hangs together is of one of them: a gearbox with its wheel, a bonnet with its stem.
     """
-    names, near = piping.roles.names, piping.given.neighbors
     # Where labels are wrong at random a bolt may be called so.
     whole = set() if piping.roles.doubtful else {part for part in own if _is_called(piping, part, {"valve"})}
-    bodies = [part for part in group.parts if part in whole or names[part] == _BODY]
-    if len(bodies) < 2:
-        return set()
+    bodies = [part for part in group.parts if part in whole or piping.roles.names[part] == _BODY]
+    found = _bodies_turned(piping, group, bodies) if len(bodies) > 1 else set()
+    # Between the caps of a three-piece valve no line ends at what is turned, whatever they are called.
+    turned = found - whole
+    return found | whole if turned and turned <= own.keys() else found
+
+
+def _bodies_turned(piping: Piping, group: Group, bodies: Sequence[int]) -> set[int]:
+    """Those of some bodies of a group that are the nearest to what turns or covers a valve."""
+    names, near = piping.roles.names, piping.given.neighbors
     steps = _steps_from(bodies, group, near)
     moving = [part for part in group.parts if names[part] in OPERATORS or names[part] == _BONNET]
     found: set[int] = set()
     for some in connected_sets(moving, _pairs_within(moving, near)):
         if not _ITS_OWN.isdisjoint([names[part] for part in some]):
             found.update(_nearest(some, steps, len(group.parts)))
-    # Between the caps of a three-piece valve no line ends at what is turned, whatever they are called.
-    turned = found - whole
-    return found | whole if turned and turned <= own.keys() else found
+    return found
 
 
 def _steps_from(cores: Sequence[int], group: Group, near: Mapping[int, Sequence[int]]) -> dict[int, dict[int, int]]:
