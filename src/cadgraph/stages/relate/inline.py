@@ -306,15 +306,14 @@ def _operators(piping: Piping, piece: _Piece) -> set[int]:
     valve that has a body of its own, as a cock on a flange has.
     """
     on_it = {other for own in piece.parts for other in piping.given.neighbors.get(own, ())}
-    near = [group for group in _without_body(piping) if not on_it.isdisjoint(group.parts)]
-    return {part for group in near if _rests_on(piping, group, piece) for part in group.parts}
+    near = [group for group in piping.groups if group.unit_type == "valve" and not on_it.isdisjoint(group.parts)]
+    return {part for group in near if _is_piece_of(piping, group, piece) for part in group.parts}
 
 
-def _without_body(piping: Piping) -> list[Group]:
-    """The groups of valves none of whose parts is called a body."""
+def _is_piece_of(piping: Piping, group: Group, piece: _Piece) -> bool:
+    """Whether a group has no body of its own and rests on a piece alone."""
     names = piping.roles.names
-    valves = [group for group in piping.groups if group.unit_type == "valve"]
-    return [group for group in valves if _BODIES.isdisjoint(names[part] for part in group.parts)]
+    return _BODIES.isdisjoint(names[part] for part in group.parts) and _rests_on(piping, group, piece)
 
 
 def _rests_on(piping: Piping, group: Group, piece: _Piece) -> bool:
