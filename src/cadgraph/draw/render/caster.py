@@ -2,38 +2,17 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 import numpy.typing as npt
-from embreex.mesh_construction import TriangleMesh
-from embreex.rtcore_scene import EmbreeScene
 
 from cadgraph.draw.render.coarse import coarsened
+from cadgraph.geometry.visibility.rays import Hits, ray_tree
 from cadgraph.model.scene import Floats, Scene
 
-__all__ = ["Caster", "Hits", "TwoCasters"]
+__all__ = ["Caster", "TwoCasters"]
 
 Singles = npt.NDArray[np.float32]
 Indices = npt.NDArray[np.int32]
-
-
-class Hits(NamedTuple):
-    """What rays met first.
-
-    Args:
-        face: ``(n,)`` int32 index into the scene's faces, -1 where a ray met nothing.
-        u: ``(n,)`` float32 barycentric weight of the face's second corner.
-        v: ``(n,)`` float32 barycentric weight of its third corner.
-        distance: ``(n,)`` float32 along the ray [m]; anything where it met nothing.
-        normal: ``(n, 3)`` float32 normal of the face, either way round and of any length.
-    """
-
-    face: Indices
-    u: Singles
-    v: Singles
-    distance: Singles
-    normal: Singles
 
 
 class Caster:
@@ -64,11 +43,7 @@ class Caster:
         self.low: Floats = vertices.min(axis=0)
         self.high: Floats = vertices.max(axis=0)
         self.center: Floats = (self.low + self.high) / 2
-        self._tree = EmbreeScene(robust=True)
-        corners = (vertices - self.center).astype(np.float32)
-        self._mesh = TriangleMesh(self._tree, corners, indices.astype(np.int32, copy=False))
-        # The first ray makes it build the tree; done here, so that threads find it finished.
-        self._tree.run(np.zeros((1, 3), np.float32), np.ones((1, 3), np.float32))
+        self._tree = ray_tree((vertices - self.center).astype(np.float32), indices)
 
     @property
     def diagonal(self) -> float:
@@ -80,32 +55,20 @@ class Caster:
         return (np.asarray(points, np.float64) - self.center).astype(np.float32)
 
     def first(self, origins: Singles, directions: Singles) -> Hits:
-        """What each ray meets first.
+        """What each ray meets first; faces are those of the scene.
 
         Args:
             origins: ``(n, 3)`` about the local centre (see :meth:`local`).
             directions: ``(n, 3)`` unit vectors.
         """
-        found = self._tree.run(
-            np.ascontiguousarray(origins, np.float32), np.ascontiguousarray(directions, np.float32), output=1
-        )
-        face = found["primID"]
-        if self._faces is not None:
-            face = np.where(face >= 0, self._faces[face], np.int32(-1))
-        return Hits(face, found["u"], found["v"], found["tfar"], found["Ng"])
+        found = self._tree.first(origins, directions)
+        if self._faces is None:
+            return found
+        return found._replace(face=np.where(found.face >= 0, self._faces[found.face], np.int32(-1)))
 
     def blocked(self, origins: Singles, directions: Singles, lengths: Singles) -> npt.NDArray[np.bool_]:
         """``(n,)`` whether anything lies on each ray before the given length [m]; arguments as in :meth:`first`."""
-        if not len(origins):
-            return np.zeros(0, bool)
-        answer = self._tree.run(
-            np.ascontiguousarray(origins),
-            np.ascontiguousarray(directions),
-            dists=np.ascontiguousarray(lengths, np.float32),
-            query="OCCLUDED",
-        )
-        blocked: npt.NDArray[np.bool_] = answer >= 0
-        return blocked
+        return self._tree.blocked(origins, directions, lengths)
 
 
 class TwoCasters(Caster):

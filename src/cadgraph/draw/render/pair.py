@@ -17,7 +17,6 @@ import numpy.typing as npt
 from PIL import Image
 
 from cadgraph.draw.render.camera import Camera
-from cadgraph.draw.render.caster import Hits
 from cadgraph.draw.render.color import Colors, from_hex, source_colors, to_srgb
 from cadgraph.draw.render.crease import CornerNormals
 from cadgraph.draw.render.light import lamps, open_air
@@ -27,6 +26,7 @@ from cadgraph.draw.render.scalebar import draw_scale_bar
 from cadgraph.draw.render.shading import Haze, background, compose, shade
 from cadgraph.draw.render.surface import Surfaces, Viewport, covered, meet
 from cadgraph.geometry.kernels.parallel import compiled
+from cadgraph.geometry.visibility.rays import Hits
 from cadgraph.model.scene import Floats, Scene
 
 __all__ = ["MARK", "Pair", "PairRenderer"]

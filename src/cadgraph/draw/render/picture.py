@@ -13,13 +13,14 @@ import numpy.typing as npt
 from PIL import Image
 
 from cadgraph.draw.render.camera import Camera
-from cadgraph.draw.render.caster import Caster, Hits, TwoCasters
+from cadgraph.draw.render.caster import Caster, TwoCasters
 from cadgraph.draw.render.color import Colors, source_colors
 from cadgraph.draw.render.crease import CornerNormals
 from cadgraph.draw.render.fineness import Fineness
 from cadgraph.draw.render.light import Lamps, lamps, light, open_air
 from cadgraph.draw.render.shading import Haze, Layer, background, compose, shade
 from cadgraph.draw.render.surface import Surfaces, Viewport, meet
+from cadgraph.geometry.visibility.rays import Hits
 from cadgraph.model.scene import Floats, Scene
 
 __all__ = ["Look", "Paint", "Renderer"]

@@ -16,9 +16,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from cadgraph.draw.render.caster import Hits, Indices, Singles
+from cadgraph.draw.render.caster import Indices, Singles
 from cadgraph.draw.render.surface import Viewport
 from cadgraph.geometry.kernels.parallel import compiled, readable
+from cadgraph.geometry.visibility.rays import Hits
 from cadgraph.model.scene import Floats, Scene, mesh_of_face
 
 __all__ = ["Facets", "Favour", "Seen", "favour", "see", "solidity"]

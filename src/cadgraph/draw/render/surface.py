@@ -16,9 +16,9 @@ import numpy as np
 import numpy.typing as npt
 
 from cadgraph.draw.render.camera import Camera
-from cadgraph.draw.render.caster import Hits
 from cadgraph.draw.render.crease import Normals
 from cadgraph.geometry.kernels.parallel import compiled
+from cadgraph.geometry.visibility.rays import Hits
 
 __all__ = ["Surfaces", "Viewport", "covered", "in_chunks", "meet"]
 

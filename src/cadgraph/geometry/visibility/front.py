@@ -9,6 +9,7 @@ import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
+from cadgraph.geometry.visibility.rays import ray_tree
 from cadgraph.model.parts import Bools
 from cadgraph.model.scene import Faces, Floats, Ints
 
@@ -291,21 +292,11 @@ class _Target:
     """Triangles that rays are sent to."""
 
     def __init__(self, corners: Floats) -> None:
-        from embreex import rtcore_scene
-        from embreex.mesh_construction import TriangleMesh
-
-        points = np.ascontiguousarray(corners.reshape(-1, 3), np.float32)
-        self._world = rtcore_scene.EmbreeScene()
-        TriangleMesh(self._world, points, np.arange(len(points), dtype=np.int32).reshape(-1, 3))
+        points = corners.reshape(-1, 3).astype(np.float32)
+        self._tree = ray_tree(points, np.arange(len(points), dtype=np.int32).reshape(-1, 3))
 
     def hits(self, origins: Floats, aims: Floats) -> tuple[Floats, Ints]:
         """How far each ray goes [m], infinity where it meets nothing; and the triangle that it meets, or -1."""
-        found = self._world.run(
-            np.ascontiguousarray(origins, np.float32),
-            np.ascontiguousarray(aims, np.float32),
-            query="INTERSECT",
-            output=1,
-        )
-        hit = np.asarray(found["primID"], np.int64)
-        away = np.where(hit >= 0, np.asarray(found["tfar"], np.float64), np.inf)
-        return away, hit
+        found = self._tree.first(origins.astype(np.float32), aims.astype(np.float32))
+        hit = found.face.astype(np.int64)
+        return np.where(hit >= 0, found.distance.astype(np.float64), np.inf), hit
