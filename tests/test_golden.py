@@ -11,6 +11,7 @@ from cadplants.presets.taste import ALL_FAMILIES
 from golden_digest import Records, of_components, of_graph
 
 IN_STYLES = ("plant-design", "bim", "game")
+LARGE = ("assortment", "field", "station")
 QUICK = {("riser", "plant-design"), ("pumps", "game")}
 REAL = Path(__file__).parent / "data"
 FILES = sorted(
@@ -40,7 +41,7 @@ def marks_of(preset, style):
         return []
     # Each preset in one style, and each style with a third of the presets.
     first = IN_STYLES[list(PRESETS).index(preset) % len(IN_STYLES)]
-    return [pytest.mark.slow] if style == first else [pytest.mark.slow, pytest.mark.long]
+    return [pytest.mark.slow] if style == first and preset not in LARGE else [pytest.mark.slow, pytest.mark.long]
 
 
 def build(source, name, graphs):

@@ -51,7 +51,7 @@ def _bytes(graph):
 
 
 @given(seed=st.integers(0, 2**32), tiles=st.integers(1, 40), by_space=st.booleans(), count=st.integers(1, 5))
-@settings(max_examples=6, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=4, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 def test_whatever_tiles_a_site_is_cut_into_the_graph_is_the_same_to_the_byte(
     plant, tmp_path_factory, seed, tiles, by_space, count
 ):

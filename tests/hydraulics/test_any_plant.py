@@ -72,7 +72,10 @@ def test_the_scenario_of_any_network_is_read_back(tmp_path_factory, graph):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("preset", PRESETS)
+# All but the largest, whose states are as many valves of the same kinds.
+@pytest.mark.parametrize(
+    "preset", [pytest.param(preset, marks=[pytest.mark.long] if preset == "field" else []) for preset in PRESETS]
+)
 def test_two_hundred_states_of_a_plant(plants, preset):
     plant, rng = plants(preset), random.Random(1)
     for _ in range(200):

@@ -57,7 +57,9 @@ def test_states_of_a_plant_by_hand_are_those_of_epanet(epanet, tmp_path):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("preset", PRESETS)
+@pytest.mark.parametrize(
+    "preset", [pytest.param(preset, marks=[pytest.mark.long] if preset == "field" else []) for preset in PRESETS]
+)
 def test_states_of_a_generated_plant_are_those_of_epanet(plants, epanet, tmp_path, preset):
     plant = plants(preset)
     valves = list(plant.balance.hand)

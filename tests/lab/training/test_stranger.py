@@ -38,9 +38,9 @@ def test_guests_touch_their_hosts_and_change_nothing_else():
     assert whole.components[: plant.n_meshes] == plant.components
     guests = whole.components[plant.n_meshes :]
     assert guests
-    hosts = np.concatenate([c.vertices for c in plant.components])
+    hosts = KDTree(np.concatenate([c.vertices for c in plant.components]))
     for guest in guests:
-        assert KDTree(hosts).query(guest.vertices)[0].min() < 1e-9
+        assert hosts.query(guest.vertices)[0].min() < 1e-9
 
 
 def test_lessons_with_guests_hold_strangers():
