@@ -17,7 +17,7 @@ from cadgraph.stages.relate.belief import Beliefs
 from cadgraph.stages.relate.joint import Ends
 from cadgraph.stages.relate.piping import Group, Piping
 
-__all__ = ["Arrangement", "Body", "arrangement_of", "find_bodies", "other_groups"]
+__all__ = ["Arrangement", "Body", "arrangement_of", "find_bodies", "other_groups", "unclaimed_parts"]
 
 # Two ends are aligned, or square, by the cosine between them, and on one axis within this share of the lesser radius.
 _ALIGNED, _SQUARE, _ON_AXIS = 0.95, 0.35, 0.35
@@ -58,7 +58,7 @@ def find_bodies(piping: Piping, beliefs: Beliefs) -> tuple[Ends, list[Body]]:
         The ends of all lines, and the bodies at them, by their first part.
     """
     weak = {part: group for group in _weak_groups(piping, beliefs) for part in group.parts}
-    pool = weak.keys() | _candidates(piping, beliefs)
+    pool = weak.keys() | unclaimed_parts(piping, beliefs)
     ends, mounts = _loose_mounts(piping, pool)
     # What hangs on the side of a line holds it.
     pool -= {side.solid for side in piping.joints.sides} - {mount.part for mount in mounts}
@@ -120,7 +120,7 @@ def _body(
     return Body(tuple(sorted(closing.union(parts))), held, tuple(sorted(around & piping.members - set(pool))))
 
 
-def _candidates(piping: Piping, beliefs: Beliefs) -> set[int]:
+def unclaimed_parts(piping: Piping, beliefs: Beliefs) -> set[int]:
     """Parts of no line and no unit that nobody but the labeler has named; the ground, fasteners and what is likely
     steelwork or a support are left out.
     """

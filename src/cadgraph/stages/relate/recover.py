@@ -9,12 +9,20 @@ import numpy as np
 
 from cadgraph.stages.relate.attach import flat_contacts
 from cadgraph.stages.relate.belief import Beliefs, beliefs_of
-from cadgraph.stages.relate.body import Arrangement, Body, arrangement_of, find_bodies, other_groups
+from cadgraph.stages.relate.body import (
+    Arrangement,
+    Body,
+    arrangement_of,
+    find_bodies,
+    other_groups,
+    unclaimed_parts,
+)
 from cadgraph.stages.relate.body_shape import box_around
 from cadgraph.stages.relate.evidence import Curve, Term, tell_terms
 from cadgraph.stages.relate.flanged import heads_for
 from cadgraph.stages.relate.foot import take_feet
 from cadgraph.stages.relate.inline import pipe_radius, recover_inline
+from cadgraph.stages.relate.instrument import take_instruments
 from cadgraph.stages.relate.joint import Ends, extent_about
 from cadgraph.stages.relate.meter import take_meters
 from cadgraph.stages.relate.piping import Group, Piping, Recovered
@@ -105,7 +113,11 @@ def recover_units(piping: Piping) -> Piping:
     sights = [_with_others_apart(piping, beliefs, sight, ends, owner) for sight in sights]
     for sight in sights:
         piping = _taken(piping, sight.body, *_type_of(piping, beliefs, sight))
-    return take_feet(take_meters(piping, beliefs), beliefs)
+    piping = take_feet(take_meters(piping, beliefs), beliefs)
+    if _is_named(beliefs):
+        return piping
+    ended = {mount.part for body in bodies for mount in body.mounts}
+    return take_instruments(piping, beliefs, unclaimed_parts(piping, beliefs) - ended)
 
 
 def _is_named(beliefs: Beliefs) -> bool:
