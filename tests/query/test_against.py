@@ -3,10 +3,10 @@
 import pytest
 
 import shapes
-from cadgraph.model.labels import Guess
+from cadgraph.model.labels import Evidence, FormerLabel, Guess
 from cadgraph.query import find_isolation
 from cadgraph.query.trace import trace
-from piping import FASTENER, PIPE, STEEL, TANK, VALVE, Plant, R, pipe, turned, valve_mesh
+from piping import FASTENER, GAUGE, PIPE, STEEL, TANK, VALVE, Plant, R, pipe, turned, valve_mesh
 
 TANK_MESH = turned(shapes.cylinder(0.5, 2.0, 64), (0, 0, 1), (0, 0, 1))
 
@@ -67,6 +67,17 @@ def test_a_valve_over_a_piece_that_has_no_label():
     assert " over part-" in text
     found = trace(plant.graph(), "T-001", "downstream")
     assert any("stands against" in doubt.text for doubt in found.doubts)
+
+
+@pytest.mark.parametrize(("before", "n"), [(None, 1), (VALVE, 1), (GAUGE, 0)])
+def test_a_gauge_on_the_tank_that_is_one_only_because_of_where_it_stands(before, n):
+    mesh = turned(shapes.cylinder(0.04, 0.12), (-0.54, 0, 1), (0, 0, 1))
+    graph = tank_line().add(mesh, GAUGE, "gauge").graph()
+    node = graph.part(graph.unit("G-001").parts[0])
+    former = None if before is None else FormerLabel(group=before, name=None, confidence=0.6, source="geometry")
+    change = {"source": "network", "evidence": Evidence(why="it stands alone on a vessel", before=former)}
+    graph.nodes[node.id] = node.model_copy(update={"label": node.label.model_copy(update=change)})
+    assert len(doubts_of(graph)) == n
 
 
 def test_the_end_of_another_line_inside_the_tank():

@@ -59,9 +59,11 @@ def standing_against(network: Network, home: Mapping[str, str], places: Collecti
 
 
 def is_gauge_by_place(network: Network, place: str) -> bool:
-    """Whether a gauge at the end of a line is one only because of where it stands: its shape did not say so."""
+    """Whether a gauge at the end of a line, or on something without a line, is one only because of where it stands: its
+    shape did not say so.
+    """
     node = network.places[place]
-    ends = len(network.arcs(place)) == 1 or network.stands_aside(place)
+    ends = len(network.arcs(place)) <= 1 or network.stands_aside(place)
     if not isinstance(node, Unit) or not network.is_gauge(place) or not ends:
         return False
     labels = [label for part in node.parts if (label := network.graph.part(part).label) is not None]
