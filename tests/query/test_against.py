@@ -72,7 +72,10 @@ def test_a_valve_over_a_piece_that_has_no_label():
 @pytest.mark.parametrize(("before", "n"), [(None, 1), (VALVE, 1), (GAUGE, 0)])
 def test_a_gauge_on_the_tank_that_is_one_only_because_of_where_it_stands(before, n):
     mesh = turned(shapes.cylinder(0.04, 0.12), (-0.54, 0, 1), (0, 0, 1))
-    graph = tank_line().add(mesh, GAUGE, "gauge").graph()
+    # It touches a beam, too, so that it may but lean on the tank.
+    graph = (
+        tank_line().add(mesh, GAUGE, "gauge").add(shapes.box((0.1, 0.1, 0.1), (-0.54, 0, 0.89)), STEEL, "beam").graph()
+    )
     node = graph.part(graph.unit("G-001").parts[0])
     former = None if before is None else FormerLabel(group=before, name=None, confidence=0.6, source="geometry")
     change = {"source": "network", "evidence": Evidence(why="it stands alone on a vessel", before=former)}

@@ -7,7 +7,7 @@ from cadgraph.model.records import Adjacent, Port
 from cadgraph.query import Network, find_isolation
 from cadgraph.query.text import gap_lines, isolation_lines
 from networks import chain, joint, junction, mounted, network, pumping, terminal, unit
-from piping import GAUGE, TANK, Plant, gauge_mesh
+from piping import GAUGE, STEEL, TANK, Plant, gauge_mesh
 from playing import LEVER
 
 
@@ -307,6 +307,8 @@ def test_a_gauge_without_a_line_is_told_with_what_it_sits_on():
     plant.add(shapes.box((0.5, 0.5, 1.0), (0, 0, 0)), TANK, "tank")
     plant.pipe((0.25, 0, 0), (1, 0, 0))
     plant.add(gauge_mesh((0, 0, 0.5)), GAUGE, "gauge")
+    # It may lean on more than the tank, which makes nothing sure.
+    plant.add(shapes.box((0.02, 0.02, 0.1), (0, 0.03, 0.55)), STEEL, "bracket")
     with pytest.raises(Unconnected, match=r"at G-001, which is mounted at T-001; .*: ask about T-001; ") as refused:
         find_isolation(plant.graph(), "G-001")
     assert refused.value.mounted_at == ("T-001",)

@@ -41,6 +41,11 @@ def test_a_long_piece_is_pipe():
     assert not stands(length=0.5)
 
 
+@pytest.mark.parametrize(("share", "found"), [(0.55, True), (0.45, False)])
+def test_unless_it_is_surely_the_gauges(share, found):
+    assert stands(length=0.5, likely={(GAUGE, "gauge stem"): share, (PIPE, "nipple"): 0.3}) is found
+
+
 def test_what_a_label_calls_a_connector_stays_one():
     assert not stands(group=PIPE, name="nipple", likely={(GAUGE, "gauge stem"): 0.2, (PIPE, "nipple"): 0.6})
     assert not stands(group=PIPE, name="nipple", source="author")

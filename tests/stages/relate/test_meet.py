@@ -4,7 +4,7 @@ import pytest
 
 import shapes
 from cadgraph.stages.relate.attach import flat_contacts
-from piping import GAUGE, PUMP, TANK, VALVE, Plant, gauge_mesh, links, merged, turned, valve_mesh
+from piping import FASTENER, GAUGE, PIPE, PUMP, STEEL, TANK, VALVE, Plant, gauge_mesh, links, merged, turned, valve_mesh
 from sketch import UP, Sketch, X, block
 
 
@@ -39,12 +39,34 @@ def test_a_gauge_between_two_devices_is_screwed_into_the_nearer_one():
     assert [pair for pair in links(plant.graph()) if "G-001" in pair] == [("G-001", "P-001")]
 
 
-@pytest.mark.parametrize("group", [TANK, "Structural element"])
-def test_a_gauge_may_but_lean_on_a_tank(group):
-    plant = Plant().add(block((0, 0, 0), 1.0), group, "tank" if group == TANK else "wall")
+def with_gauge(group=TANK, name="tank"):
+    """A gauge on the side of a block that a pipe leads to."""
+    plant = Plant().add(block((0, 0, 0), 1.0), group, name)
     plant.add(gauge_mesh((0.5, 0, 0), up=X, side=(0, 0, 1)), GAUGE, "gauge")
-    plant.pipe((0, 0, 0.5), (0, 0, 1.5))
-    assert not any("G-001" in pair for pair in links(plant.graph()))
+    return plant.pipe((0, 0, 0.5), (0, 0, 1.5))
+
+
+def test_a_gauge_that_touches_a_tank_and_nothing_else_hangs_on_it():
+    graph = with_gauge().graph()
+    assert ("G-001", "T-001") in links(graph)
+    plant = with_gauge().add(block((0.53, 0.03, 0), (0.06, 0.02, 0.02)), FASTENER, "bolt")
+    assert ("G-001", "T-001") in links(plant.graph())
+
+
+def test_what_touches_the_gauge_alone_does_not_hold_it():
+    plant = with_gauge().add(block((0.56, 0.0, -0.05), (0.02, 0.02, 0.1)), None)
+    assert ("G-001", "T-001") in links(plant.graph())
+
+
+@pytest.mark.parametrize(("group", "name"), [(STEEL, "post"), (PIPE, "coupling")])
+def test_one_that_touches_more_may_but_lean_on_the_tank(group, name):
+    plant = with_gauge().add(block((0.56, 0.0, -0.05), (0.02, 0.02, 0.1)), group, name)
+    plant.add(block((0.56, 0.0, -0.2), (0.2, 0.2, 0.2)), STEEL, "beam")
+    assert not any({"G-001", "T-001"} == set(pair) for pair in links(plant.graph()))
+
+
+def test_a_wall_is_no_tank():
+    assert not any("G-001" in pair for pair in links(with_gauge("Structural element", "wall").graph()))
 
 
 @pytest.mark.parametrize(("name", "joined"), [("valve body", True), ("lever", False)])

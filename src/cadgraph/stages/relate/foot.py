@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import replace
 
@@ -17,6 +18,7 @@ _WHY = "it stands at a {} and looks as much like a piece of it as like pipe"
 _UNITS = 2  # that a piece stands between
 _MOST = 3  # pieces between a gauge and its line
 _LONGEST = {"gauge": 0.4, "tank": 0.6}  # of a stem, and of a nozzle [m]
+_LIKELY = 0.5  # what is so likely of a gauge may be longer: both cocks of a level gauge in one mesh
 
 
 def take_feet(piping: Piping, beliefs: Beliefs) -> Piping:
@@ -63,7 +65,8 @@ def _feet(piping: Piping, beliefs: Beliefs) -> Iterator[tuple[int, int, float]]:
     own = {kind: beliefs.of_groups(vocabulary.groups_of(kind)) for kind in {*vocabulary.unit_of_group.values()}}
     for part, number in (*_at_units(piping), *_between_units(piping)):
         kind = piping.groups[number].unit_type
-        if not _may_be_foot(piping, beliefs, part, kind):
+        longest = math.inf if kind == "gauge" and own[kind][part] >= _LIKELY else _LONGEST.get(kind, 0.0)
+        if not _may_be_foot(piping, beliefs, part) or _length(piping, part) > longest:
             continue
         share = _share_of(kind, {one: float(values[part]) for one, values in own.items()}, float(lines[part]))
         if share:
@@ -104,11 +107,11 @@ def _share_of(kind: str, said: Mapping[str, float], against: float) -> float:
     return likely / (likely + against) if foot else 0.0
 
 
-def _may_be_foot(piping: Piping, beliefs: Beliefs, part: int, kind: str) -> bool:
-    """Whether a part at a gauge or tank is short enough, and neither a user nor any label calls it a connector."""
+def _may_be_foot(piping: Piping, beliefs: Beliefs, part: int) -> bool:
+    """Whether neither a user nor any label calls a part a connector."""
     label = piping.given.labels[part]
     called = label is not None and label.group in piping.given.vocabulary.connector_groups
-    return bool(beliefs.open[part]) and not called and _length(piping, part) <= _LONGEST.get(kind, 0.0)
+    return bool(beliefs.open[part]) and not called
 
 
 def _length(piping: Piping, part: int) -> float:

@@ -7,7 +7,6 @@ from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
 
 from cadgraph.geometry.components import connected_sets
-from cadgraph.model.vocabulary import FASTENERS
 from cadgraph.stages.relate.belief import Beliefs
 from cadgraph.stages.relate.evidence import score_of, tell_terms
 from cadgraph.stages.relate.piping import Group, Piping, Recovered
@@ -19,7 +18,6 @@ ALONE = {"vessel": 1.25, "line": 2.3}
 with no line at it and nothing else beyond, in log-odds: of 700 instruments and 1,292 valves in 60 plants by 14 people
 149 and 75 stand so on a vessel, 93 and 17 on a line."""
 
-_HOLDS = FASTENERS | {"clamp", "gasket"}  # what lies between two things without being either
 _VESSELS = frozenset({"tank", "equipment"})
 _SURE = 0.6  # least probability of an instrument where labels make nothing of it
 _MOST = 3  # parts of an instrument that labels missed
@@ -81,19 +79,12 @@ def _among_free(piping: Piping, beliefs: Beliefs, free: Collection[int]) -> Iter
 
 def _place_of(piping: Piping, parts: Sequence[int]) -> str | None:
     """What some parts stand alone on: ``"vessel"`` or ``"line"``; None where a line ends at them or they touch more."""
-    near = _touched(piping, parts)
+    near = piping.touched(parts)
     if not near or not piping.mounted.keys().isdisjoint(parts):
         return None
     if any(near <= set(group.parts) and group.unit_type in _VESSELS for group in piping.groups):
         return "vessel"
     return "line" if len(near) == 1 and near <= piping.lines.keys() else None
-
-
-def _touched(piping: Piping, parts: Sequence[int]) -> set[int]:
-    """What some parts touch, but for what only holds them."""
-    names, neighbors = piping.roles.names, piping.given.neighbors
-    near = {other for part in parts for other in neighbors.get(part, ()) if names[other] not in _HOLDS}
-    return near.difference(parts)
 
 
 def _likely(piping: Piping, beliefs: Beliefs, parts: Sequence[int]) -> tuple[float, float]:

@@ -16,7 +16,7 @@ __all__ = ["meet_directly"]
 
 _DEEP = 0.6  # of their width units run into each other where they are drawn without care for it (share)
 _SCREWED = 0.002  # a gauge is screwed into what is this near [m]; threads are drawn with play
-_AT = frozenset({"valve", "pump", "equipment"})  # what gauges are screwed into; at a tank they may but lean
+_AT = frozenset({"valve", "pump", "equipment"})  # what gauges are screwed into; at a tank they may lean on more
 
 
 def meet_directly(
@@ -73,11 +73,32 @@ def _rows_at_devices(
 ) -> list[int]:
     """The contacts of parts of free units with devices that these may be screwed into, the nearest first."""
     contacts = piping.given.contacts
-    bodies = {part for unit in units if unit.unit_type in _AT for part in unit.parts}
-    wanted = {pair for pair in pairs if _is_on(pair, free, bodies)}
+    wanted = {pair for pair in pairs if any(_is_on(pair, *each) for each in _places(piping, units, free))}
     gaps = contacts.distance.tolist()
     rows = [row for row, pair in enumerate(contacts.plain_pairs) if pair in wanted and gaps[row] <= _SCREWED]
     return sorted(rows, key=lambda row: (gaps[row], row))
+
+
+def _places(
+    piping: Piping, units: Sequence[UnitParts], free: Collection[int]
+) -> tuple[tuple[Collection[int], Collection[int]], ...]:
+    """Parts of free units, and those of devices that they may be screwed into: of tanks where they touch no more."""
+    bodies = {part for unit in units if unit.unit_type in _AT for part in unit.parts}
+    tanks = {part for unit in units if unit.unit_type == "tank" for part in unit.parts}
+    return (free, bodies), (_hanging(piping, units, free), tanks)
+
+
+def _hanging(piping: Piping, units: Sequence[UnitParts], free: Collection[int]) -> set[int]:
+    """The parts of those free gauges that touch one other unit and nothing else: they can't but hang on it."""
+    owner = owners_of(units)
+
+    def hangs(parts: tuple[int, ...]) -> bool:
+        # What touches the gauge alone holds nothing: a flap, a plate.
+        near = {part for part in piping.touched(parts) if not piping.touched((part,)) <= set(parts)}
+        return len({owner.get(part, -1 - part) for part in near}) == 1
+
+    gauges = (unit.parts for unit in units if unit.unit_type == "gauge" and not set(free).isdisjoint(unit.parts))
+    return {part for parts in gauges if hangs(parts) for part in parts}
 
 
 def _free_units(

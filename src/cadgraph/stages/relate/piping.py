@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -26,6 +26,7 @@ from cadgraph.stages.relate.stated import Stated
 
 __all__ = ["Group", "Piping", "Recovered", "RelateInput"]
 
+_HOLDS = FASTENERS | {"clamp", "gasket"}  # what lies between two things without being either
 _MOST_HELD = 6  # lines at one fastener: two flanges, their gaskets, pipes; more are a set of bolts in one mesh
 
 
@@ -185,6 +186,11 @@ class Piping:
     def lines_near(self, part: int) -> list[int]:
         """The parts with a line near one."""
         return [other for other in self.given.neighbors.get(part, ()) if other in self.lines]
+
+    def touched(self, parts: Collection[int]) -> set[int]:
+        """What some parts touch, but for what only holds them."""
+        near = {other for part in parts for other in self.given.neighbors.get(part, ())}
+        return {other for other in near.difference(parts) if self.roles.names[other] not in _HOLDS}
 
     @cached_property
     def mounted(self) -> Mapping[int, set[int]]:

@@ -13,7 +13,7 @@ from cadplants.lines.instrument import tee_at
 from cadplants.lines.route import Route
 from cadplants.lines.run import Inline, Run
 from cadplants.model.contacts import met, on_ground
-from cadplants.model.plant import Assembly, Component, Plant, Unit, gather
+from cadplants.model.plant import Assembly, Component, Connection, Plant, Unit, gather
 from cadplants.model.standards import PIPES, TEE_CENTER_TO_END
 from cadplants.parts.brand import Brand, draw_brand, dressed
 from cadplants.parts.detail import Marks
@@ -30,7 +30,7 @@ from cadplants.styles.modeling_style import ModelingStyle
 __all__ = ["make_station"]
 
 _USUAL = {"fasteners": "set", "valve": "few", "gauge": "few"}
-_SUCTION, _PUMP_IN, _PUMP_OUT, _DISCHARGE, _DRAIN, _MANWAY = 100, 80, 50, 80, 25, 300  # nominal sizes
+_SUCTION, _PUMP_IN, _PUMP_OUT, _DISCHARGE, _DRAIN, _COCK, _MANWAY = 100, 80, 50, 80, 25, 15, 300  # nominal sizes
 _CLEAR = 0.35  # m, from the ground to both vessels
 
 
@@ -149,7 +149,11 @@ def _level_gauge(style: ModelingStyle, radius: float, low: float, high: float, r
         )
         for p in parts
     )
-    return Assembly(components, (), (Unit("L-1", "gauge", "level gauge"),))
+    return Assembly(
+        components,
+        units=(Unit("L-1", "gauge", "level gauge"),),
+        connections=(Connection("T-1", "L-1", "", 0.0, _COCK / 1000),),
+    )
 
 
 def _receiver(work: _Work) -> tuple[Tank, int]:

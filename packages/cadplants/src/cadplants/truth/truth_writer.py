@@ -145,7 +145,7 @@ def _connection(connection: Connection) -> dict[str, Any]:
     return {
         "from": connection.source,
         "to": connection.target,
-        "line": connection.line,
+        "line": connection.line or None,
         "length": round(connection.length, 6),
         "diameter": connection.diameter,
         "direction": connection.direction,
