@@ -232,5 +232,6 @@ def test_the_questions_of_the_page_are_answered_as_by_reading_the_graph(demo):
     assert len(questions) == len(answers) == 12
     for sql, answer in zip(questions, answers, strict=True):
         assert sorted_rows(rows(plant, sql)) == sorted_rows(answer), sql
-        assert len(rows(plant, sql)) > 0 or "pipe ON pipe.a = g.tag" in sql, sql
+        # No gauge of the demo sits right at a pump, and no unit is without a line.
+        assert len(rows(plant, sql)) > 0 or "pipe ON pipe.a = g.tag" in sql or "pipes = 0" in sql, sql
     plant.tables.close()
