@@ -4,9 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Iterator, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
 
 from cadgraph.geometry.components import connected_sets
+from cadgraph.model.scene import Floats
 from cadgraph.stages.relate.belief import Beliefs
 from cadgraph.stages.relate.evidence import score_of, tell_terms
 from cadgraph.stages.relate.piping import Group, Piping, Recovered
@@ -34,7 +38,8 @@ def take_instruments(piping: Piping, beliefs: Beliefs, free: Collection[int]) ->
         free: parts of no line and no unit that nobody but the labeler has named, and that no line ends at.
     """
     # All is looked at before anything changes: what stands alone follows from the groups.
-    found = [*_among_valves(piping, beliefs), *_among_free(piping, beliefs, free)]
+    sight = _Sight(piping, beliefs)
+    found = [*sight.among_valves(), *sight.among_free(free)]
     if not found:
         return piping
     taken = {part for parts, _ in found for part in parts}
@@ -50,49 +55,67 @@ def take_instruments(piping: Piping, beliefs: Beliefs, free: Collection[int]) ->
     )
 
 
-def _among_valves(piping: Piping, beliefs: Beliefs) -> Iterator[tuple[tuple[int, ...], Recovered]]:
-    """The valves that are rather instruments: that one is a device, and which of the two, is all that is asked."""
-    for group in piping.groups:
-        parts = group.parts
-        alone = group.unit_type == "valve" and bool(beliefs.open[list(parts)].all())
-        if not alone or not piping.recovered.keys().isdisjoint(parts) or _place_of(piping, parts) != "vessel":
-            continue
-        measures, shuts = _likely(piping, beliefs, parts)
-        odds = ALONE["vessel"] + math.log(measures / shuts)
-        if odds > 0:
-            yield parts, _judged("vessel", odds, measures, shuts)
+@dataclass(frozen=True)
+class _Sight:
+    """What is to be seen of parts that may stand alone.
 
+    Args:
+        piping: with its units.
+        beliefs: what each part may be.
+    """
 
-def _among_free(piping: Piping, beliefs: Beliefs, free: Collection[int]) -> Iterator[tuple[tuple[int, ...], Recovered]]:
-    """The instruments among parts that labels make nothing of, which may be neither of the two as well."""
-    pairs = [(a, b) for a, b in piping.given.contacts.plain_pairs if a in free and b in free]
-    for parts in connected_sets(sorted(free), pairs):
-        place = _place_of(piping, parts) if len(parts) <= _MOST else None
-        if place is None:
-            continue
-        measures, shuts = _likely(piping, beliefs, parts)
-        # What is neither stands alone no less often than an instrument.
-        odds = math.log(measures / (shuts * math.exp(-ALONE[place]) + max(1 - measures - shuts, _LEAST)))
-        if score_of(odds) >= _SURE:
-            yield parts, _judged(place, odds, measures, shuts)
+    piping: Piping
+    beliefs: Beliefs
 
+    @cached_property
+    def _owner(self) -> dict[int, Group]:
+        return {part: group for group in self.piping.groups for part in group.parts}
 
-def _place_of(piping: Piping, parts: Sequence[int]) -> str | None:
-    """What some parts stand alone on: ``"vessel"`` or ``"line"``; None where a line ends at them or they touch more."""
-    near = piping.touched(parts)
-    if not near or not piping.mounted.keys().isdisjoint(parts):
-        return None
-    if any(near <= set(group.parts) and group.unit_type in _VESSELS for group in piping.groups):
-        return "vessel"
-    return "line" if len(near) == 1 and near <= piping.lines.keys() else None
+    @cached_property
+    def _likely(self) -> Floats:
+        """``(2, n_parts)`` how likely each part is of an instrument, and of a valve."""
+        groups_of = self.piping.given.vocabulary.groups_of
+        return np.array([self.beliefs.of_groups(groups_of(kind)) for kind in ("gauge", "valve")])
 
+    def among_valves(self) -> Iterator[tuple[tuple[int, ...], Recovered]]:
+        """The valves that are rather instruments: that one is a device, and which of the two, is all that is asked."""
+        known = self.piping.recovered.keys()
+        for group in self.piping.groups:
+            parts = group.parts
+            if group.unit_type != "valve" or not self.beliefs.open[list(parts)].all() or not known.isdisjoint(parts):
+                continue
+            measures, shuts = self._mean(parts)
+            odds = ALONE["vessel"] + math.log(measures / shuts)
+            if odds > 0 and self._place_of(parts) == "vessel":
+                yield parts, _judged("vessel", odds, measures, shuts)
 
-def _likely(piping: Piping, beliefs: Beliefs, parts: Sequence[int]) -> tuple[float, float]:
-    """How likely some parts are of an instrument, and of a valve."""
-    groups_of, rows = piping.given.vocabulary.groups_of, list(parts)
-    said = (float(beliefs.of_groups(groups_of(kind))[rows].mean()) for kind in ("gauge", "valve"))
-    measures, shuts = (max(one, _LEAST) for one in said)
-    return measures, shuts
+    def among_free(self, free: Collection[int]) -> Iterator[tuple[tuple[int, ...], Recovered]]:
+        """The instruments among parts that labels make nothing of, which may be neither of the two as well."""
+        pairs = [(a, b) for a, b in self.piping.given.contacts.plain_pairs if a in free and b in free]
+        for parts in connected_sets(sorted(free), pairs):
+            place = self._place_of(parts) if len(parts) <= _MOST else None
+            if place is None:
+                continue
+            measures, shuts = self._mean(parts)
+            # What is neither stands alone no less often than an instrument.
+            odds = math.log(measures / (shuts * math.exp(-ALONE[place]) + max(1 - measures - shuts, _LEAST)))
+            if score_of(odds) >= _SURE:
+                yield parts, _judged(place, odds, measures, shuts)
+
+    def _mean(self, parts: Sequence[int]) -> tuple[float, float]:
+        measures, shuts = np.maximum(self._likely[:, list(parts)].mean(axis=1), _LEAST).tolist()
+        return measures, shuts
+
+    def _place_of(self, parts: Sequence[int]) -> str | None:
+        """What some parts stand alone on: ``"vessel"``, ``"line"``, or None: a line ends at them or they touch more."""
+        near = self.piping.touched(parts)
+        if not near or not self.piping.mounted.keys().isdisjoint(parts):
+            return None
+        owners = {self._owner.get(part) for part in near}
+        owner = owners.pop() if len(owners) == 1 else None
+        if owner is not None and owner.unit_type in _VESSELS:
+            return "vessel"
+        return "line" if len(near) == 1 and near <= self.piping.lines.keys() else None
 
 
 def _judged(place: str, odds: float, measures: float, shuts: float) -> Recovered:

@@ -73,7 +73,8 @@ def _rows_at_devices(
 ) -> list[int]:
     """The contacts of parts of free units with devices that these may be screwed into, the nearest first."""
     contacts = piping.given.contacts
-    wanted = {pair for pair in pairs if any(_is_on(pair, *each) for each in _places(piping, units, free))}
+    places = _places(piping, units, free)
+    wanted = {pair for pair in pairs if any(_is_on(pair, *place) for place in places)}
     gaps = contacts.distance.tolist()
     rows = [row for row, pair in enumerate(contacts.plain_pairs) if pair in wanted and gaps[row] <= _SCREWED]
     return sorted(rows, key=lambda row: (gaps[row], row))
@@ -97,7 +98,7 @@ def _hanging(piping: Piping, units: Sequence[UnitParts], free: Collection[int]) 
         near = {part for part in piping.touched(parts) if not piping.touched((part,)) <= set(parts)}
         return len({owner.get(part, -1 - part) for part in near}) == 1
 
-    gauges = (unit.parts for unit in units if unit.unit_type == "gauge" and not set(free).isdisjoint(unit.parts))
+    gauges = (unit.parts for unit in units if unit.unit_type == "gauge" and any(part in free for part in unit.parts))
     return {part for parts in gauges if hangs(parts) for part in parts}
 
 
