@@ -13,7 +13,7 @@ from cadplants.families import FAMILIES
 from cadplants.families.vessels.vessel import level_gauge
 from cadplants.model.contacts import met, on_ground, whole
 from cadplants.model.family import as_assembly
-from cadplants.model.plant import Assembly, Component, Plant, Unit, gather
+from cadplants.model.plant import Assembly, Component, Connection, Plant, Unit, gather
 from cadplants.parts.access import platform, platform_with_stairs
 from cadplants.parts.electrical import cabinet, lamp, sign
 from cadplants.parts.enclosure import fence, pillar
@@ -43,6 +43,7 @@ _PLACES: tuple[tuple[_Make, dict[str, Any], str, tuple[float, float], int, str],
 )
 _HALF = (11.2, 8.6)  # m, half of the yard
 _PANEL = 3.35  # m
+_COCK = 15  # nominal size
 _BARS = 0.094  # m, least distance of the bars of the fence: no child's head fits through
 _FINE: dict[str, Any] = {"fasteners": "flange", "valve": "few", "gauge": "few", "pump": "few"}
 
@@ -128,8 +129,9 @@ def _storage(style: ModelingStyle, rng: np.random.Generator) -> Assembly:
     first = len(vessel.components)
     new = tuple(pair for pair in joined.contacts if pair[1] >= first)
     units = (*vessel.units, Unit(unit, "gauge", "level gauge"))
+    hangs = Connection("T-9", unit, "", 0.0, _COCK / 1000)
     named = tuple(replace(c, family=c.family or family.name) for c in joined.components)
-    return Assembly(named, (*vessel.contacts, *new), units)
+    return Assembly(named, (*vessel.contacts, *new), units, connections=(hangs,))
 
 
 def _ladder(style: ModelingStyle, rng: np.random.Generator) -> Assembly:
