@@ -10,14 +10,14 @@ import numpy as np
 
 from cadplants.builder.params import Apart
 from cadplants.families import FAMILIES
-from cadplants.families.vessels.vessel import level_gauge
-from cadplants.model.contacts import met, on_ground, whole
+from cadplants.model.contacts import on_ground, whole
 from cadplants.model.family import as_assembly
-from cadplants.model.plant import Assembly, Component, Connection, Plant, Unit, gather
+from cadplants.model.plant import Assembly, Component, Plant, gather
 from cadplants.parts.access import platform, platform_with_stairs
 from cadplants.parts.electrical import cabinet, lamp, sign
 from cadplants.parts.enclosure import fence, pillar
-from cadplants.parts.vessel import Nozzle, skin, tank
+from cadplants.parts.vessel import Nozzle, tank
+from cadplants.presets.gauged_tank import with_level_gauge
 from cadplants.presets.pumps import make_pumps
 from cadplants.presets.rack import make_rack
 from cadplants.presets.riser import make_riser
@@ -43,7 +43,6 @@ _PLACES: tuple[tuple[_Make, dict[str, Any], str, tuple[float, float], int, str],
 )
 _HALF = (11.2, 8.6)  # m, half of the yard
 _PANEL = 3.35  # m
-_COCK = 15  # nominal size
 _BARS = 0.094  # m, least distance of the bars of the fence: no child's head fits through
 _FINE: dict[str, Any] = {"fasteners": "flange", "valve": "few", "gauge": "few", "pump": "few"}
 
@@ -118,20 +117,9 @@ def _storage(style: ModelingStyle, rng: np.random.Generator) -> Assembly:
     vessel = tank("T-9", style, radius, height, 0.35, nozzles).assembly
     low = 0.35 + radius / 2 + 0.04
     family = FAMILIES["tank/dished on legs"]
-    angle = -0.3 * np.pi
-    parts = level_gauge(skin(radius, angle, style), low + 0.3, low + height - 0.3, angle, style, rng)
-    unit = "G-9"
-    gauge = tuple(
-        Component(p.solid, p.group, p.name, style.color(p.color), unit=unit, family="level gauge", granularity="pieces")
-        for p in parts
-    )
-    joined = met(Assembly((*vessel.components, *gauge)))
-    first = len(vessel.components)
-    new = tuple(pair for pair in joined.contacts if pair[1] >= first)
-    units = (*vessel.units, Unit(unit, "gauge", "level gauge"))
-    hangs = Connection("T-9", unit, "", 0.0, _COCK / 1000)
-    named = tuple(replace(c, family=c.family or family.name) for c in joined.components)
-    return Assembly(named, (*vessel.contacts, *new), units, connections=(hangs,))
+    span = low + 0.3, low + height - 0.3
+    both = with_level_gauge(vessel, "T-9", "G-9", radius, -0.3 * np.pi, span, style, rng)
+    return replace(both, components=tuple(replace(c, family=c.family or family.name) for c in both.components))
 
 
 def _ladder(style: ModelingStyle, rng: np.random.Generator) -> Assembly:

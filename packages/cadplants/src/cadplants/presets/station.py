@@ -7,13 +7,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from cadgraph.model.scene import Floats
-from cadplants.families.vessels.vessel import level_gauge
 from cadplants.lines.choice import Choice
 from cadplants.lines.instrument import tee_at
 from cadplants.lines.route import Route
 from cadplants.lines.run import Inline, Run
-from cadplants.model.contacts import met, on_ground
-from cadplants.model.plant import Assembly, Component, Connection, Plant, Unit, gather
+from cadplants.model.contacts import on_ground
+from cadplants.model.plant import Component, Plant
 from cadplants.model.standards import PIPES, TEE_CENTER_TO_END
 from cadplants.parts.brand import Brand, draw_brand, dressed
 from cadplants.parts.detail import Marks
@@ -21,7 +20,8 @@ from cadplants.parts.drum import drum
 from cadplants.parts.fastener import SUPPORT_REACH
 from cadplants.parts.pump import Pump, pump
 from cadplants.parts.structure import post
-from cadplants.parts.vessel import Nozzle, Tank, skin, tank
+from cadplants.parts.vessel import Nozzle, Tank, tank
+from cadplants.presets.gauged_tank import with_level_gauge
 from cadplants.presets.site import Placed, Site, Work
 from cadplants.solids.mesh_ops import box
 from cadplants.solids.transforms import at
@@ -30,7 +30,7 @@ from cadplants.styles.modeling_style import ModelingStyle
 __all__ = ["make_station"]
 
 _USUAL = {"fasteners": "set", "valve": "few", "gauge": "few"}
-_SUCTION, _PUMP_IN, _PUMP_OUT, _DISCHARGE, _DRAIN, _COCK, _MANWAY = 100, 80, 50, 80, 25, 15, 300  # nominal sizes
+_SUCTION, _PUMP_IN, _PUMP_OUT, _DISCHARGE, _DRAIN, _MANWAY = 100, 80, 50, 80, 25, 300  # nominal sizes
 _CLEAR = 0.35  # m, from the ground to both vessels
 
 
@@ -128,32 +128,11 @@ def _feed_tank(work: _Work) -> tuple[Tank, int]:
     ]
     vessel = tank("T-1", work.style, work.plan.radius, work.plan.height, _CLEAR, nozzles)
     low = _CLEAR + work.plan.radius / 2 + 0.04
-    gauge = _level_gauge(work.style, work.plan.radius, low + 0.28, low + work.plan.height - 0.25, work.rng)
-    count = len(vessel.assembly.components)
-    both = met(gather([vessel.assembly, gauge]))
-    # The builder of the tank says what touches within it; the gauge's are those that its surfaces have.
-    mine = tuple(pair for pair in both.contacts if pair[1] >= count)
-    whole = replace(both, contacts=(*vessel.assembly.contacts, *mine))
+    span = low + 0.28, low + work.plan.height - 0.25
+    whole = with_level_gauge(vessel.assembly, "T-1", "L-1", work.plan.radius, 0.06 * np.pi, span, work.style, work.rng)
     pose = at(work.plan.suction_x, work.plan.tank, 0.0)
     first = work.site.add(whole.placed(pose))
     return replace(vessel, faces=tuple(pose @ face for face in vessel.faces)), first
-
-
-def _level_gauge(style: ModelingStyle, radius: float, low: float, high: float, rng: np.random.Generator) -> Assembly:
-    """A level gauge between two cocks on the shell, which reads the level of the tank."""
-    angle = 0.06 * np.pi
-    parts = level_gauge(skin(radius, angle, style), low, high, angle, style, rng)
-    components = tuple(
-        Component(
-            p.solid, p.group, p.name, style.color(p.color), unit="L-1", family="level gauge", granularity="pieces"
-        )
-        for p in parts
-    )
-    return Assembly(
-        components,
-        units=(Unit("L-1", "gauge", "level gauge"),),
-        connections=(Connection("T-1", "L-1", "", 0.0, _COCK / 1000),),
-    )
 
 
 def _receiver(work: _Work) -> tuple[Tank, int]:
