@@ -43,7 +43,7 @@ class Caster:
         self.low: Floats = vertices.min(axis=0)
         self.high: Floats = vertices.max(axis=0)
         self.center: Floats = (self.low + self.high) / 2
-        self._tree = ray_tree((vertices - self.center).astype(np.float32), indices)
+        self._tree = ray_tree(vertices - self.center, indices)
 
     @property
     def diagonal(self) -> float:

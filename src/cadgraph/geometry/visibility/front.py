@@ -292,11 +292,11 @@ class _Target:
     """Triangles that rays are sent to."""
 
     def __init__(self, corners: Floats) -> None:
-        points = corners.reshape(-1, 3).astype(np.float32)
+        points = corners.reshape(-1, 3)
         self._tree = ray_tree(points, np.arange(len(points), dtype=np.int32).reshape(-1, 3))
 
     def hits(self, origins: Floats, aims: Floats) -> tuple[Floats, Ints]:
         """How far each ray goes [m], infinity where it meets nothing; and the triangle that it meets, or -1."""
-        found = self._tree.first(origins.astype(np.float32), aims.astype(np.float32))
+        found = self._tree.first(origins, aims)
         hit = found.face.astype(np.int64)
         return np.where(hit >= 0, found.distance.astype(np.float64), np.inf), hit

@@ -27,6 +27,7 @@ from cadgraph.model.scene import Faces
 __all__ = ["Hits", "RayTree", "ray_tree"]
 
 Singles = npt.NDArray[np.float32]
+Reals = npt.NDArray[np.floating[Any]]
 
 
 class Hits(NamedTuple):
@@ -50,20 +51,20 @@ class Hits(NamedTuple):
 class RayTree(Protocol):
     """Triangles that rays meet from both sides. Casting leaves the interpreter free for other threads."""
 
-    def first(self, origins: Singles, directions: Singles) -> Hits:
+    def first(self, origins: Reals, directions: Reals) -> Hits:
         """What each ray meets first; origins ``(n, 3)`` [m] and directions ``(n, 3)``."""
         ...
 
-    def blocked(self, origins: Singles, directions: Singles, lengths: Singles) -> npt.NDArray[np.bool_]:
+    def blocked(self, origins: Reals, directions: Reals, lengths: Reals) -> npt.NDArray[np.bool_]:
         """``(n,)`` whether anything lies on each ray before its length, in lengths of its direction."""
         ...
 
 
-def ray_tree(corners: Singles, faces: Faces) -> RayTree:
+def ray_tree(corners: Reals, faces: Faces) -> RayTree:
     """Builds the tree of some triangles; no ray slips through between two that share an edge.
 
     Args:
-        corners: ``(n, 3)`` finite [m].
+        corners: ``(n, 3)`` finite [m]; taken as float32, as are rays.
         faces: ``(m, 3)`` indices of corners.
 
     Raises:
@@ -76,19 +77,19 @@ def ray_tree(corners: Singles, faces: Faces) -> RayTree:
 class _Wrapped:
     """A tree by the package's own interface."""
 
-    def __init__(self, corners: Singles, faces: Faces) -> None:
+    def __init__(self, corners: Reals, faces: Faces) -> None:
         self._scene = rtcore_scene.EmbreeScene(robust=True)
         self._mesh = TriangleMesh(self._scene, np.ascontiguousarray(corners, np.float32), readable(faces, np.int32))
         # The first ray makes it build the tree; done here, so that threads find it finished.
         self._scene.run(np.zeros((1, 3), np.float32), np.ones((1, 3), np.float32))
 
-    def first(self, origins: Singles, directions: Singles) -> Hits:
+    def first(self, origins: Reals, directions: Reals) -> Hits:
         found = self._scene.run(
             np.ascontiguousarray(origins, np.float32), np.ascontiguousarray(directions, np.float32), output=1
         )
         return Hits(found["primID"], found["u"], found["v"], found["tfar"], found["Ng"])
 
-    def blocked(self, origins: Singles, directions: Singles, lengths: Singles) -> npt.NDArray[np.bool_]:
+    def blocked(self, origins: Reals, directions: Reals, lengths: Reals) -> npt.NDArray[np.bool_]:
         if not len(origins):
             return np.zeros(0, bool)
         answer: npt.NDArray[Any] = self._scene.run(
@@ -165,7 +166,7 @@ def _files() -> list[Path]:
 class _Direct:
     """A tree by the C interface."""
 
-    def __init__(self, library: _Library, corners: Singles, faces: Faces) -> None:
+    def __init__(self, library: _Library, corners: Reals, faces: Faces) -> None:
         functions, device = library
         # Embree reads them where they lie, and four numbers for a corner of three.
         self._corners = np.zeros((len(corners) + 1, 3), np.float32)
@@ -187,7 +188,7 @@ class _Direct:
         if functions.rtcGetDeviceError(device):
             raise MemoryError(f"no memory for a tree of {len(faces):,} triangles that rays can be cast at")
 
-    def first(self, origins: Singles, directions: Singles) -> Hits:
+    def first(self, origins: Reals, directions: Reals) -> Hits:
         n = len(directions)
         found = Hits(
             np.empty(n, np.int32),
@@ -200,7 +201,7 @@ class _Direct:
         _first(np.uintp(self._scene), _record(), *rays, *found)
         return found
 
-    def blocked(self, origins: Singles, directions: Singles, lengths: Singles) -> npt.NDArray[np.bool_]:
+    def blocked(self, origins: Reals, directions: Reals, lengths: Reals) -> npt.NDArray[np.bool_]:
         answer = np.empty(len(directions), np.bool_)
         rays = readable(origins, np.float32), readable(directions, np.float32), readable(lengths, np.float32)
         _blocked(np.uintp(self._scene), _record(), *rays, answer)
@@ -226,6 +227,15 @@ def _record() -> Singles:
 
 
 @compiled
+def _aim(record: Any, origins: Any, directions: Any, ray: int, end: float) -> None:
+    """Writes a ray up to its end, the mask apart, which stays."""
+    for i in range(3):
+        record[i] = origins[ray, i]
+        record[_DIRECTION + i] = directions[ray, i]
+    record[_END] = end
+
+
+@compiled
 def _first(
     scene: Any, record: Any, origins: Any, directions: Any, face: Any, u: Any, v: Any, distance: Any, normal: Any
 ) -> None:
@@ -234,10 +244,7 @@ def _first(
     whole[_MASK] = _NONE
     address, default = record.ctypes.data, np.uintp(0)
     for ray in range(len(face)):
-        for i in range(3):
-            record[i] = origins[ray, i]
-            record[_DIRECTION + i] = directions[ray, i]
-        record[_END] = np.inf
+        _aim(record, origins, directions, ray, np.inf)
         whole[_FACE] = whole[_GEOMETRY] = whole[_INSTANCE] = _NONE
         _intersect(scene, address, default)
         face[ray], distance[ray] = whole[_FACE], record[_END]
@@ -253,9 +260,6 @@ def _blocked(scene: Any, record: Any, origins: Any, directions: Any, lengths: An
     whole[_MASK] = _NONE
     address, default = record.ctypes.data, np.uintp(0)
     for ray in range(len(answer)):
-        for i in range(3):
-            record[i] = origins[ray, i]
-            record[_DIRECTION + i] = directions[ray, i]
-        record[_END] = lengths[ray]
+        _aim(record, origins, directions, ray, lengths[ray])
         _occluded(scene, address, default)
         answer[ray] = record[_END] < 0  # Embree sets it to minus infinity
