@@ -13,7 +13,10 @@ from cadgraph.model.probabilities import Probabilities
 from cadgraph.model.scene import Floats
 from cadgraph.model.vocabulary import Vocabulary
 
-__all__ = ["Beliefs", "beliefs_of"]
+__all__ = ["LEAST", "Beliefs", "beliefs_of"]
+
+LEAST = 1e-3
+"""No probability counts for less where odds are made of it."""
 
 # Who can't be overruled by what lies around a part: the user, and the file where it is asked.
 _KNOWN = frozenset({"human", "repeat", "catalog", "author", "file"})

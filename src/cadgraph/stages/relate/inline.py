@@ -10,7 +10,7 @@ import numpy as np
 from cadgraph.geometry.line.centreline import Centreline
 from cadgraph.model.parts import Bools
 from cadgraph.model.scene import Floats
-from cadgraph.stages.relate.belief import Beliefs
+from cadgraph.stages.relate.belief import LEAST, Beliefs
 from cadgraph.stages.relate.body_shape import surface_about
 from cadgraph.stages.relate.evidence import Curve, Term, tell_terms
 from cadgraph.stages.relate.joint import Facing
@@ -43,7 +43,6 @@ _ALIKE = ("strainer", "expansion joint", "flange", "coupling", "union", "hose")
 _BODIES = frozenset({"valve", "valve body"})
 _RIVAL = 0.25  # least probability, and more than of a valve, from which on something else may be meant (ours)
 _SURE = 0.6  # least probability of what is taken for a valve
-_LEAST = 1e-3  # no probability counts for less
 _LONGEST = 14.0  # radii that a valve is long at most
 _ON_AXIS, _ALIGNED = 0.35, -0.95  # as share of the radius; cosine between the outward directions
 _NARROW = 0.7  # the ends of two cones that meet are narrower than their other ends by this factor
@@ -89,7 +88,7 @@ def recover_inline(piping: Piping, beliefs: Beliefs, likelihood: Curve) -> Pipin
     groups: list[Group] = []
     recovered = dict(piping.recovered)
     for piece in _pieces(piping, beliefs):
-        share = max(float(likely[list(piece.parts)].mean()), _LEAST)
+        share = max(float(likely[list(piece.parts)].mean()), LEAST)
         said = f"the labeler gives it {share:.0%}", float(likelihood(np.log(share)))
         other = float(others[list(piece.parts)].mean(axis=0).max())
         rival = None if other < max(_RIVAL, share) else float(likelihood(np.log(other))) - said[1]

@@ -11,7 +11,7 @@ import numpy as np
 
 from cadgraph.geometry.components import connected_sets
 from cadgraph.model.scene import Floats
-from cadgraph.stages.relate.belief import Beliefs
+from cadgraph.stages.relate.belief import LEAST, Beliefs
 from cadgraph.stages.relate.evidence import score_of, tell_terms
 from cadgraph.stages.relate.piping import Group, Piping, Recovered
 
@@ -25,7 +25,6 @@ with no line at it and nothing else beyond, in log-odds: of 700 instruments and 
 _VESSELS = frozenset({"tank", "equipment"})
 _SURE = 0.6  # least probability of an instrument where labels make nothing of it
 _MOST = 3  # parts of an instrument that labels missed
-_LEAST = 1e-3  # no probability counts for less
 
 
 def take_instruments(piping: Piping, beliefs: Beliefs, free: Collection[int]) -> Piping:
@@ -68,10 +67,6 @@ class _Sight:
     beliefs: Beliefs
 
     @cached_property
-    def _owner(self) -> dict[int, Group]:
-        return {part: group for group in self.piping.groups for part in group.parts}
-
-    @cached_property
     def _likely(self) -> Floats:
         """``(2, n_parts)`` how likely each part is of an instrument, and of a valve."""
         groups_of = self.piping.given.vocabulary.groups_of
@@ -98,12 +93,12 @@ class _Sight:
                 continue
             measures, shuts = self._mean(parts)
             # What is neither stands alone no less often than an instrument.
-            odds = math.log(measures / (shuts * math.exp(-ALONE[place]) + max(1 - measures - shuts, _LEAST)))
+            odds = math.log(measures / (shuts * math.exp(-ALONE[place]) + max(1 - measures - shuts, LEAST)))
             if score_of(odds) >= _SURE:
                 yield parts, _judged(place, odds, measures, shuts)
 
     def _mean(self, parts: Sequence[int]) -> tuple[float, float]:
-        measures, shuts = np.maximum(self._likely[:, list(parts)].mean(axis=1), _LEAST).tolist()
+        measures, shuts = np.maximum(self._likely[:, list(parts)].mean(axis=1), LEAST).tolist()
         return measures, shuts
 
     def _place_of(self, parts: Sequence[int]) -> str | None:
@@ -111,7 +106,7 @@ class _Sight:
         near = self.piping.touched(parts)
         if not near or not self.piping.mounted.keys().isdisjoint(parts):
             return None
-        owners = {self._owner.get(part) for part in near}
+        owners = {self.piping.owner.get(part) for part in near}
         owner = owners.pop() if len(owners) == 1 else None
         if owner is not None and owner.unit_type in _VESSELS:
             return "vessel"

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from functools import partial
 
-from cadgraph.stages.relate.belief import Beliefs
+from cadgraph.stages.relate.belief import LEAST, Beliefs
 from cadgraph.stages.relate.evidence import score_of, tell_terms
 from cadgraph.stages.relate.piping import Group, Piping, Recovered
 
@@ -20,7 +20,6 @@ shuts, in log-odds: what a valve carries moves it."""
 _METER, _TRANSMITTER = "flow meter", "transmitter"
 _SURE = 0.6  # least probability of what is taken for a meter
 _ENDS = 2  # of lines at a meter
-_LEAST = 1e-3  # no probability counts for less
 
 
 def take_meters(piping: Piping, beliefs: Beliefs) -> Piping:
@@ -78,7 +77,7 @@ def _is_head(piping: Piping, group: Group) -> bool:
 
 def _judged(shut: float, measures: float) -> Recovered:
     """How sure it is that a valve's body under a transmitter is a meter, by how likely it is either, and why."""
-    shut, measures = max(shut, _LEAST), max(measures, _LEAST)
+    shut, measures = max(shut, LEAST), max(measures, LEAST)
     terms = [
         ("a transmitter sits on it, and nothing that moves", CARRIES),
         (f"the labeler gives a flow meter {measures:.0%}, a valve {shut:.0%}", math.log(measures / shut)),

@@ -173,6 +173,11 @@ class Piping:
         return edit_joints(found, given.edits, given.parts, self.lines, self.solids)
 
     @cached_property
+    def owner(self) -> Mapping[int, Group]:
+        """The group of each part that is in one."""
+        return {part: group for group in self.groups for part in group.parts}
+
+    @cached_property
     def bolted(self) -> frozenset[tuple[int, int]]:
         """Pairs of parts with lines that one fastener touches both of."""
         held = [near for part in self._fasteners if len(near := self.lines_near(part)) <= _MOST_HELD]

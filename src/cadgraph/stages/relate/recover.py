@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from cadgraph.stages.relate.attach import flat_contacts
-from cadgraph.stages.relate.belief import Beliefs, beliefs_of
+from cadgraph.stages.relate.belief import LEAST, Beliefs, beliefs_of
 from cadgraph.stages.relate.body import (
     Arrangement,
     Body,
@@ -80,7 +80,6 @@ _MOTOR = frozenset({"motor", "motor fan cover", "coupling guard"})
 # least so likely.
 _SURE, _OTHER, _LIKELY = 0.6, 0.8, 0.5
 _SOME_DEVICE = 0.9  # least probability that an unnamed body is a device, whichever
-_LEAST = 1e-3  # no probability counts for less
 _ROOT = 0.3  # how likely a body that a gauge is screwed into must be a device of its own
 _FAR = 8.0  # a unit that is so many times likelier itself than a piece of a body stays apart from it
 _APART = 2.0  # what is so many times likelier something else is no piece of the unit that it is flanged to
@@ -109,8 +108,7 @@ def recover_units(piping: Piping) -> Piping:
     mounted = frozenset(piping.mounted)
     # Rows of ends hold for the piping that they were found in: all is looked at before anything changes.
     sights = [_look_at(piping, beliefs, body, ends, mounted) for body in bodies]
-    owner = {part: group for group in piping.groups for part in group.parts}
-    sights = [_with_others_apart(piping, beliefs, sight, ends, owner) for sight in sights]
+    sights = [_with_others_apart(piping, beliefs, sight, ends) for sight in sights]
     for sight in sights:
         piping = _taken(piping, sight.body, *_type_of(piping, beliefs, sight))
     piping = take_feet(take_meters(piping, beliefs), beliefs)
@@ -167,13 +165,12 @@ def _look_at(piping: Piping, beliefs: Beliefs, body: Body, ends: Ends, mounted: 
     )
 
 
-def _with_others_apart(
-    piping: Piping, beliefs: Beliefs, sight: _Sight, ends: Ends, owner: Mapping[int, Group]
-) -> _Sight:
+def _with_others_apart(piping: Piping, beliefs: Beliefs, sight: _Sight, ends: Ends) -> _Sight:
     """A body without those units in it that are far likelier themselves than pieces of it: the gauge on a boiler."""
     body = sight.body
     kind, _ = _type_of(piping, beliefs, sight)
-    held = {owner[part] for part in body.parts if part in owner and owner[part].unit_type != kind}
+    groups = (piping.owner.get(part) for part in body.parts)
+    held = {group for group in groups if group is not None and group.unit_type != kind}
     apart = {group for group in held if _is_far_likelier(piping, beliefs, group, _groups_of(piping, kind))}
     less = _without(piping, body, apart)
     return _look_at(piping, beliefs, less, ends, sight.mounted) if apart and less.parts and less.mounts else sight
@@ -214,7 +211,7 @@ def _behind(piping: Piping, beliefs: Beliefs, body: Body, ends: Ends, row: int) 
     likeliest = max((share for kind, share in said.items() if kind != behind), default=0.0)
     if not flanged and likeliest < _ROOT:
         return None, 0.0
-    return behind, likeliest / max(said[behind], _LEAST)
+    return behind, likeliest / max(said[behind], LEAST)
 
 
 def _flanged_to(piping: Piping, body: Body, ends: Ends, row: int) -> Iterator[str]:
@@ -268,7 +265,7 @@ def _terms(piping: Piping, beliefs: Beliefs, sight: _Sight) -> dict[str, list[Te
 
     def labelled(groups: Collection[str]) -> Term:
         said = float(beliefs.of_groups(groups, _BENT)[list(sight.body.parts)].mean())
-        return f"the labeler gives it {said:.0%}", float(LABELLED(np.log(max(said, _LEAST))))
+        return f"the labeler gives it {said:.0%}", float(LABELLED(np.log(max(said, LEAST))))
 
     terms: dict[str, list[Term]] = {}
     if sight.body.unit_type is None:
