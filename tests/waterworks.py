@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 
 from cadgraph.hydraulics.network import LinkKind
 from networks import chain, network, terminal, unit
 
 PRESETS = ("pumps", "skid", "tank", "riser", "rack", "field")
+WITHOUT_FIELD = [pytest.param(name, marks=[pytest.mark.long] if name == "field" else []) for name in PRESETS]
+"""The largest left to the long run: its states are as many valves of the same kinds."""
 
 
 def line(*kinds, size=80, length=1.0, levels=(0.0, 0.0)):

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from cadgraph.hydraulics.process import Process
 from cadgraph.hydraulics.scenario_file import read_scenario, write_scenario
 from networks import chain, junction, network, terminal, unit
-from waterworks import PRESETS, head_gained, imbalance, random_commands
+from waterworks import PRESETS, WITHOUT_FIELD, head_gained, imbalance, random_commands
 
 NAMES = [*(f"T-00{i}" for i in (1, 2)), *(f"P-00{i}" for i in (1, 2, 3)), "E-001", *(f"J{i}" for i in (1, 2, 3, 4))]
 NAMES += [*(f"X{i}" for i in (1, 2, 3)), *(f"V-00{i}" for i in range(1, 7)), "G-001", "G-002"]
@@ -72,10 +72,7 @@ def test_the_scenario_of_any_network_is_read_back(tmp_path_factory, graph):
 
 
 @pytest.mark.slow
-# All but the largest, whose states are as many valves of the same kinds.
-@pytest.mark.parametrize(
-    "preset", [pytest.param(preset, marks=[pytest.mark.long] if preset == "field" else []) for preset in PRESETS]
-)
+@pytest.mark.parametrize("preset", WITHOUT_FIELD)
 def test_two_hundred_states_of_a_plant(plants, preset):
     plant, rng = plants(preset), random.Random(1)
     for _ in range(200):

@@ -13,7 +13,7 @@ from cadgraph.export.epanet import InputFile, write_epanet
 from cadgraph.hydraulics.process import Process
 from cadgraph.hydraulics.scenario_file import write_scenario
 from networks import chain, network, pumping, terminal, unit
-from waterworks import PRESETS, line, random_commands
+from waterworks import WITHOUT_FIELD, line, random_commands
 
 
 @pytest.fixture(scope="module")
@@ -57,9 +57,7 @@ def test_states_of_a_plant_by_hand_are_those_of_epanet(epanet, tmp_path):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    "preset", [pytest.param(preset, marks=[pytest.mark.long] if preset == "field" else []) for preset in PRESETS]
-)
+@pytest.mark.parametrize("preset", WITHOUT_FIELD)
 def test_states_of_a_generated_plant_are_those_of_epanet(plants, epanet, tmp_path, preset):
     plant = plants(preset)
     valves = list(plant.balance.hand)
