@@ -4,7 +4,7 @@ import threading
 
 import pytest
 
-from cadgraph.session.ahead import imported_meanwhile
+from cadgraph.session.ahead import imported_meanwhile, worked_out_meanwhile
 from cadgraph.session.run import _NEEDED
 
 
@@ -31,3 +31,38 @@ assert not set({_NEEDED!r}) & set(sys.modules)
 assert not {{"numba", "scipy", "pxr", "networkx"}} & set(sys.modules)
 """
     subprocess.run([sys.executable, "-c", code], check=True)
+
+
+def test_outcome_is_handed_over_once():
+    with worked_out_meanwhile(lambda checkpoint: "found") as outcome:
+        assert outcome() == "found"
+        with pytest.raises(IndexError):
+            outcome()
+
+
+def test_error_of_the_work_is_raised_where_the_outcome_is_wanted():
+    def act(checkpoint):
+        raise MemoryError("no room")
+
+    with worked_out_meanwhile(act) as outcome, pytest.raises(MemoryError, match="no room"):
+        outcome()
+    with worked_out_meanwhile(act):
+        pass  # nobody asked
+
+
+def test_work_that_nobody_waits_for_ends_at_its_next_checkpoint():
+    before, began = threading.active_count(), threading.Event()
+
+    def act(checkpoint):
+        began.set()
+        while True:
+            checkpoint()
+
+    def block():
+        with worked_out_meanwhile(act):
+            began.wait()
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        block()
+    assert threading.active_count() == before

@@ -163,6 +163,7 @@ class Walk:
         self._sampled = _is_sampled(stage)
         self._transforms = UsdGeom.XformCache(self._time or Usd.TimeCode.Default())
         self._kinds: dict[str, str] = {}
+        self._placeable: dict[str, bool] = {}
         self._fallbacks: dict[tuple[str, str], Any] = {}
         self._open_instancers: list[str] = []
         self._prototypes: dict[tuple[str, bool], list[_Inner] | None] = {}
@@ -304,11 +305,17 @@ class Walk:
             self._kinds[name] = _kind_of(prim, name)
         return self._kinds[name]
 
+    def _is_placeable(self, prim: Any) -> bool:
+        name = prim.GetTypeName()
+        if name not in self._placeable:
+            self._placeable[name] = bool(prim.IsA(UsdGeom.Xformable))
+        return self._placeable[name]
+
     def _own(self, prim: Any) -> _Own:
         """What a prim says of itself."""
         names = frozenset(prim.GetAuthoredPropertyNames())
         matrix, resets = None, False
-        if "xformOpOrder" in names and prim.IsA(UsdGeom.Xformable):
+        if "xformOpOrder" in names and self._is_placeable(prim):
             matrix, resets = self._local(prim)
         binds = "material:binding" in names or "material:binding:full" in names
         if not self.has_bindings:

@@ -1,13 +1,17 @@
-"""Modules that a run needs later, imported while another process reads its file."""
+"""What a run needs later, got ready while it waits for another process, or for the interpreter."""
 
 from __future__ import annotations
 
 import importlib
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager, suppress
+from typing import TypeVar
 
-__all__ = ["imported_meanwhile"]
+__all__ = ["imported_meanwhile", "worked_out_meanwhile"]
+
+_Found = TypeVar("_Found")
 
 
 @contextmanager
@@ -32,3 +36,34 @@ def imported_meanwhile(*names: str) -> Iterator[None]:
         yield
     finally:
         thread.join()
+
+
+class _Unwanted(Exception):
+    """Nobody waits for it any more."""
+
+
+@contextmanager
+def worked_out_meanwhile(act: Callable[[Callable[[], None]], _Found]) -> Iterator[Callable[[], _Found]]:
+    """Works something out in a thread beside the block.
+
+    At the end of the block the thread has ended: at its next checkpoint, where nobody asked for what it makes.
+
+    Args:
+        act: does the work, most of it outside the interpreter; it gets a function to call between its steps, which
+            raises once the block is left.
+
+    Yields:
+        A function that waits for the outcome and hands it over, once; it raises what the work raised.
+    """
+    left = threading.Event()
+
+    def checkpoint() -> None:
+        if left.is_set():
+            raise _Unwanted
+
+    with ThreadPoolExecutor(1) as pool:
+        outcome = [pool.submit(act, checkpoint)]
+        try:
+            yield lambda: outcome.pop().result()
+        finally:
+            left.set()

@@ -5,13 +5,14 @@ from __future__ import annotations
 import gc
 import json
 import time
-from collections.abc import Sequence
-from contextlib import nullcontext
+from collections.abc import Callable, Sequence
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from cadgraph._io.atomic import write_atomically
+from cadgraph._io.garbage import collector_paused
 from cadgraph._io.manifest import of_an_earlier_graph
 from cadgraph._io.progress import Progress, quiet
 from cadgraph._io.results import NewResults, new_results
@@ -27,10 +28,12 @@ from cadgraph.model.given_labels import GivenLabel, read_labels
 from cadgraph.model.graph import SceneGraph, shards_in
 from cadgraph.model.scene import Scene
 from cadgraph.model.vocabulary import Vocabulary, default_vocabulary, read_vocabulary
-from cadgraph.session.ahead import imported_meanwhile
+from cadgraph.session.ahead import imported_meanwhile, worked_out_meanwhile
 from cadgraph.session.replaced import labels_there, tell_lost_corrections, tell_replaced
 
 if TYPE_CHECKING:
+    from cadgraph.draw.report.overview import Overview
+    from cadgraph.model.analysis import Analysis
     from cadgraph.session.session import Session
 
 __all__ = [
@@ -132,14 +135,35 @@ def run(
         if isinstance(labeler, AskingLabeler) and labeler.only_asks and (target / "graph.json").exists():
             clock("", 1)
             return Outcome(SceneGraph.load(target), {}, clock.seconds)
-        scene, graph = session.analysis.scene, session.make_graph(clock)
-        remarks = (*tell_replaced(there, graph), *tell_lost_corrections(session.lost, len(session.corrections)))
-        del session
-        if scene.n_meshes > _MANY:
-            # What the stages have found and nobody holds any more leads back to itself in many places.
-            gc.collect()
-        outcome = write_results(scene, graph, source, target, config.report if report else None, clock)
+        drawn = config.report if report else None
+        with collector_paused(), _overview_meanwhile(session.analysis, drawn) as overview:
+            scene, graph = session.analysis.scene, session.make_graph(clock)
+            remarks = (*tell_replaced(there, graph), *tell_lost_corrections(session.lost, len(session.corrections)))
+            del session
+            if scene.n_meshes > _MANY:
+                # What the stages have found and nobody holds any more leads back to itself in many places.
+                gc.collect()
+            outcome = write_results(scene, graph, source, target, drawn, clock, overview)
         return replace(outcome, remarks=(*remarks, *(crew.remarks if crew is not None else ())))
+
+
+def _overview_meanwhile(
+    analysis: Analysis, report: ReportConfig | None
+) -> AbstractContextManager[Callable[[], Overview | None]]:
+    """Casts the rays of the report's overview beside a block in which the graph is made.
+
+    Not where there is no report, nothing to draw, or so much that the memory of both together is too much.
+    """
+    if report is None or analysis.scene.n_meshes > _MANY:
+        return nullcontext(lambda: None)
+    scene, ground = analysis.scene, analysis.parts.ground[analysis.parts.part_of_mesh]
+
+    def act(checkpoint: Callable[[], None]) -> Overview | None:
+        from cadgraph.draw.report.overview import can_be_drawn, look_over
+
+        return look_over(scene, ground, report, checkpoint) if can_be_drawn(scene) else None
+
+    return worked_out_meanwhile(act)
 
 
 def begin(
@@ -196,8 +220,9 @@ def begin(
 
 
 def write_results(
-    scene: Scene, graph: SceneGraph, source: str | Path, target: Path, report: ReportConfig | None, clock: Clock
-) -> Outcome:
+    scene: Scene, graph: SceneGraph, source: str | Path, target: Path, report: ReportConfig | None, clock: Clock,
+    overview: Callable[[], Overview | None] = lambda: None,
+) -> Outcome:  # fmt: skip
     """Writes a graph and what goes with it into a folder, over the results of an earlier run.
 
     Args:
@@ -207,6 +232,7 @@ def write_results(
         target: the folder; it exists.
         report: how to draw pictures and write the report; None: not at all.
         clock: takes the time of each stage.
+        overview: gives what the report's overview shows, where that is worked out meanwhile.
 
     Raises:
         OutputError: a file can't be written.
@@ -215,13 +241,14 @@ def write_results(
     with new_results(target, dropped=_OF_ITS_GRAPH) as new:
         clock("write graph", 0)
         stage_graph(scene, graph, source, target, clock)
-        outcome = write_rest(scene, graph, target, new, report, clock)
+        outcome = write_rest(scene, graph, target, new, report, clock, overview)
     return replace(outcome, removed=tuple(name for name in there if not (target / name).exists()))
 
 
 def write_rest(
-    scene: Scene, graph: SceneGraph, target: Path, new: NewResults, report: ReportConfig | None, clock: Clock
-) -> Outcome:
+    scene: Scene, graph: SceneGraph, target: Path, new: NewResults, report: ReportConfig | None, clock: Clock,
+    overview: Callable[[], Overview | None] = lambda: None,
+) -> Outcome:  # fmt: skip
     """Writes what is made from a graph: the report, and how long everything took; then all of it comes to its place.
 
     Where the report fails, or somebody stops it, the graph comes all the same.
@@ -233,6 +260,7 @@ def write_rest(
         new: what is coming into it; with the graph.
         report: how to draw pictures and write the report; None: that of an earlier graph says that it is one.
         clock: takes the time of each stage.
+        overview: gives what the report's overview shows, where that is worked out meanwhile.
 
     Raises:
         OutputError: a file can't be written.
@@ -244,7 +272,7 @@ def write_rest(
         clock("draw report", 0)
         report_file = target / "report.html"
         try:
-            files["report"] = write_report(scene, graph, report_file, report, clock)
+            files["report"] = write_report(scene, graph, report_file, report, clock, overview)
         except BaseException as stop:
             _keep_report(target, new)
             new.commit()

@@ -1,7 +1,9 @@
 import numpy as np
+import pytest
 
 from cadgraph.config import ReportConfig
 from cadgraph.draw.colors import RELATION, group_colors
+from cadgraph.draw.report.overview import look_over
 from cadgraph.draw.report.pictures import cluster_colors, draw_pictures, largest_first
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Terminal
@@ -37,6 +39,43 @@ def test_graph_and_scene_far_out_agree(build_scene, build_graph):
     near = draw_pictures(build_scene(), build_graph(), CONFIG)
     far = draw_pictures(build_scene(origin), build_graph(origin), CONFIG)
     assert [p.image.tobytes() for p in near] == [p.image.tobytes() for p in far]
+
+
+def test_overview_that_was_looked_at_before_gives_the_same_pictures(scene, graph):
+    ground = _ground_of(scene, graph)
+    plain = draw_pictures(scene, graph, CONFIG)
+    ahead = draw_pictures(scene, graph, CONFIG, overview=lambda: look_over(scene, ground, CONFIG))
+    assert [p.image.tobytes() for p in ahead] == [p.image.tobytes() for p in plain]
+
+
+@pytest.mark.parametrize("of", ["another scene", "other ground", "another size", "other samples"])
+def test_overview_of_something_else_is_not_used(of, build_scene, scene, graph):
+    ground = _ground_of(scene, graph)
+    config = {
+        "another size": CONFIG.model_copy(update={"width": 200}),
+        "other samples": ReportConfig(width=240, height=150, samples=2),
+    }
+    other = look_over(
+        build_scene() if of == "another scene" else scene,
+        np.arange(scene.n_meshes) == 0 if of == "other ground" else ground,
+        config.get(of, CONFIG),
+    )  # fmt: skip
+    assert not other.is_of(scene, ground, CONFIG)
+    pictures = draw_pictures(scene, graph, CONFIG, overview=lambda: other)
+    assert [p.image.tobytes() for p in pictures] == [p.image.tobytes() for p in draw_pictures(scene, graph, CONFIG)]
+
+
+def test_look_ends_where_nobody_waits_for_it(scene, graph):
+    def stop():
+        raise InterruptedError
+
+    with pytest.raises(InterruptedError):
+        look_over(scene, _ground_of(scene, graph), CONFIG, stop)
+
+
+def _ground_of(scene, graph):
+    ground = {mesh for part in graph.parts() if part.ground for mesh in part.meshes}
+    return np.array([path in ground for path in scene.paths])
 
 
 def test_largest_cluster_comes_first(graph):

@@ -17,13 +17,13 @@ from cadgraph.draw.render.caster import Caster, TwoCasters
 from cadgraph.draw.render.color import Colors, source_colors
 from cadgraph.draw.render.crease import CornerNormals
 from cadgraph.draw.render.fineness import Fineness
-from cadgraph.draw.render.light import Lamps, lamps, light, open_air
+from cadgraph.draw.render.light import Lamps, Light, lamps, light, open_air
 from cadgraph.draw.render.shading import Haze, Layer, background, compose, shade
 from cadgraph.draw.render.surface import Surfaces, Viewport, meet
 from cadgraph.geometry.visibility.rays import Hits
 from cadgraph.model.scene import Floats, Scene
 
-__all__ = ["Look", "Paint", "Renderer"]
+__all__ = ["Look", "Paint", "Renderer", "Sight"]
 
 Bools = npt.NDArray[np.bool_]
 Singles = npt.NDArray[np.float32]
@@ -70,6 +70,27 @@ class Paint:
     colors: Colors
     hatched: Bools | None = field(default=None)
     ghosted: Bools | None = field(default=None)
+
+
+@dataclass(frozen=True)
+class Sight:
+    """What a camera sees, before it is painted.
+
+    Args:
+        port: the camera's picture.
+        look: how it is drawn.
+        ghosted: ``(n_meshes,)`` the meshes that are only hinted at.
+        lights: the lamps.
+        surfaces: what the rays met.
+        light: what each pixel sees of the sky and of the lamps.
+    """
+
+    port: Viewport
+    look: Look
+    ghosted: Bools
+    lights: Lamps
+    surfaces: Surfaces
+    light: Light
 
 
 class Renderer:
@@ -180,29 +201,60 @@ class Renderer:
         Raises:
             ValueError: the paints don't agree on what is ghosted.
         """
-        look = look or Look()
-        ghosted = _ghosted(self.scene.n_meshes, paints)
+        return self.painted(self.look(camera, look or Look(), _ghosted(self.scene.n_meshes, paints)), paints)
+
+    def look(self, camera: Camera, look: Look, ghosted: Bools | None = None) -> Sight:
+        """Casts the rays of a picture, most of the work on it; its colours needn't be known yet.
+
+        Args:
+            camera: where from, and how large.
+            look: how.
+            ghosted: ``(n_meshes,)`` what will only be hinted at; none by default.
+        """
+        ghosted = np.zeros(self.scene.n_meshes, bool) if ghosted is None else ghosted
+        port, lights = Viewport.whole(camera), lamps(camera)
         drawn = np.diff(self.scene.face_offsets) > 0
-        ghosts = bool((ghosted & drawn).any() and (~ghosted & drawn).any())
-        port = Viewport.whole(camera)
-        lights = lamps(camera)
-        behind = background(camera.height, look.top, look.bottom)
-        colors = np.array([paint.colors for paint in paints], np.float32)
-        none = np.zeros(self.scene.n_meshes, bool)
-        hatched = np.array([none if paint.hatched is None else paint.hatched for paint in paints])
-        solid_meshes = np.flatnonzero(~ghosted & drawn) if ghosts else None
+        solid_meshes = np.flatnonzero(~ghosted & drawn) if self._shows_through(ghosted) else None
         caster = self.caster(solid_meshes, self._fineness.wanted(camera, solid_meshes, _SHARE))
         surfaces = self.surfaces(port, caster, look.samples, lit=look.sky_rays > 0)
         seen = open_air(port.width * port.height)
         if look.sky_rays:
             seen = light(port, surfaces, caster, lights, look.sky_rays, look.floor, self.threads)
+        return Sight(port, look, ghosted, lights, surfaces, seen)
+
+    def painted(self, sight: Sight, paints: Sequence[Paint]) -> list[Image.Image]:
+        """Paints what a camera sees.
+
+        Args:
+            sight: what :meth:`look` found.
+            paints: one for each picture.
+
+        Returns:
+            RGB images in the order of the paints.
+
+        Raises:
+            ValueError: a paint has other meshes ghosted than those that were when the rays were cast.
+        """
+        if not np.array_equal(_ghosted(self.scene.n_meshes, paints), sight.ghosted):
+            raise ValueError("these paints ghost other meshes than the sight does; look anew")
+        port, look = sight.port, sight.look
+        behind = background(port.height, look.top, look.bottom)
+        colors = np.array([paint.colors for paint in paints], np.float32)
+        none = np.zeros(self.scene.n_meshes, bool)
+        hatched = np.array([none if paint.hatched is None else paint.hatched for paint in paints])
         solid = shade(
-            port, surfaces, seen, lights, colors, hatched, none, look.samples, look.lines, Haze(), behind,
-            self.threads,
+            port, sight.surfaces, sight.light, sight.lights, colors, hatched, none, look.samples, look.lines, Haze(),
+            behind, self.threads,
         )  # fmt: skip
-        over = self._ghosts(port, lights, colors, ~ghosted, look, behind) if ghosts else None
-        images = compose(port, solid, over, behind, self.threads)
-        return [Image.fromarray(image) for image in images]
+        over = None
+        if self._shows_through(sight.ghosted):
+            over = self._ghosts(port, sight.lights, colors, ~sight.ghosted, look, behind)
+        return [Image.fromarray(image) for image in compose(port, solid, over, behind, self.threads)]
+
+    def _shows_through(self, ghosted: Bools) -> bool:
+        """Whether some of what is drawn is ghosted, and some is not."""
+        drawn = np.diff(self.scene.face_offsets) > 0
+        return bool((ghosted & drawn).any() and (~ghosted & drawn).any())
 
     def surfaces(self, port: Viewport, caster: Caster, samples: int, *, lit: bool = False) -> Surfaces:
         """What the rays of a picture meet among a caster's meshes."""

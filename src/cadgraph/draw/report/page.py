@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import hashlib
 import io
+from collections.abc import Callable
 from importlib import resources
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -20,6 +21,7 @@ from cadgraph.query.doubt import mounted_words
 from cadgraph.query.summary import connection_words, end_words, share_words, summarize
 
 if TYPE_CHECKING:
+    from cadgraph.draw.report.overview import Overview
     from cadgraph.draw.report.pictures import Picture
 
 __all__ = ["write_report"]
@@ -34,6 +36,7 @@ def write_report(
     path: str | Path,
     config: ReportConfig | None = None,
     progress: Progress = quiet,
+    overview: Callable[[], Overview | None] = lambda: None,
 ) -> Path:
     """Writes the report, and the main picture as ``picture.png`` in the same folder.
 
@@ -46,6 +49,7 @@ def write_report(
         path: the file, or a folder that gets ``report.html``.
         config: size and number of pictures; the defaults if None.
         progress: told how many of the pictures are drawn.
+        overview: gives what the pictures of the whole scene show, where that was worked out meanwhile.
 
     Returns:
         The path of the page.
@@ -57,7 +61,7 @@ def write_report(
 
     target = Path(path)
     target = target if target.suffix.lower() in (".html", ".htm") else target / "report.html"
-    pictures = draw_pictures(scene, graph, config or ReportConfig(), progress)
+    pictures = draw_pictures(scene, graph, config or ReportConfig(), progress, overview)
     if pictures:
         write_atomically(target.parent / "picture.png", _png(pictures[0]))
     write_atomically(target, _page(graph, pictures))

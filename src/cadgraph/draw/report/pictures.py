@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -22,9 +22,10 @@ from cadgraph.draw.render.camera import Camera, frame
 from cadgraph.draw.render.color import distinct_colors, from_hex, source_colors, to_hex
 from cadgraph.draw.render.picture import Look, Paint, Renderer
 from cadgraph.draw.render.views import three_quarter_view
+from cadgraph.draw.report.overview import MARGIN, Overview, can_be_drawn, look_over
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Cluster, Connected, Edge, Junction, Part, Point, Related, Terminal, Unit
-from cadgraph.model.scene import Floats, Ints, Scene
+from cadgraph.model.scene import Ints, Scene
 
 __all__ = ["Picture", "cluster_colors", "draw_pictures", "kind_words", "largest_first"]
 
@@ -34,7 +35,6 @@ _CROWDED = 48  # units from which on lines and balls are thinner, and only tags 
 _CLUTTER = 3.0  # of a tag in a crowded picture, see annotate
 _AT_ONCE = 2  # pictures of structures: while one is drawn, another is annotated
 _LEGEND_CLUSTERS = 10
-_MARGIN = 0.07
 _END = "#5b6470"  # of junctions and ends of runs
 _NEARLY_ALL = 0.7
 _LEAD = 0.45  # of a line's width: from a line to the ball of what stands at it
@@ -116,7 +116,13 @@ class _Ready:
         return {part.id: row for row, part in enumerate(self.parts)}
 
 
-def draw_pictures(scene: Scene, graph: SceneGraph, config: ReportConfig, progress: Progress = quiet) -> list[Picture]:
+def draw_pictures(
+    scene: Scene,
+    graph: SceneGraph,
+    config: ReportConfig,
+    progress: Progress = quiet,
+    overview: Callable[[], Overview | None] = lambda: None,
+) -> list[Picture]:
     """Draws all pictures of a report.
 
     Args:
@@ -124,29 +130,31 @@ def draw_pictures(scene: Scene, graph: SceneGraph, config: ReportConfig, progres
         graph: the finished graph.
         config: size, anti-aliasing and number of pictures.
         progress: told how many of the pictures are drawn.
+        overview: gives what the pictures of the whole scene show, if that is known already.
 
     Returns:
         The pictures by group (with connections), as it is, by structure; then the structures with pipes, the largest
         first.
         None at all if the scene has nothing to draw.
     """
-    if not scene.n_triangles or not np.isfinite(_own_vertices(scene)).all(axis=1).any():
+    if not can_be_drawn(scene):
         return []
     parts = graph.parts()
     owner = {mesh: row for row, part in enumerate(parts) for mesh in part.meshes}
-    colors = group_colors(graph)
+    row_of_mesh = np.array([owner.get(path, -1) for path in scene.paths], np.int64)
+    ground = np.array([*(part.ground for part in parts), False], bool)[row_of_mesh]
+    known = overview()
+    seen = known if known is not None and known.is_of(scene, ground, config) else look_over(scene, ground, config)
+    camera, colors = seen.camera, group_colors(graph)
     ready = _Ready(
-        scene, graph, config, Renderer(scene), Look(samples=config.samples), parts,
-        np.array([owner.get(path, -1) for path in scene.paths], np.int64), colors, color_of_unit_type(graph, colors),
+        scene, graph, config, seen.renderer, seen.sight.look, parts, row_of_mesh, colors,
+        color_of_unit_type(graph, colors),
     )  # fmt: skip
-    shown = _shown_meshes(ready)
-    whole = config.width, config.height
-    direction = three_quarter_view(ready.renderer, shown, aspect=config.width / config.height)
-    camera = _camera(ready, shown, direction, whole)
     groups, hatched, legend = _group_paint(ready)
     clusters = _cluster_paint(ready)
     paints = [Paint(groups, hatched), Paint(source_colors(scene)), Paint(clusters)]
-    images = ready.renderer.pictures(camera, paints, ready.look)
+    images = ready.renderer.painted(seen.sight, paints)
+    del known, seen  # the samples of a large picture take as much room as the plant
     pictures = [
         _by_group(ready, camera, images[0], legend),
         _as_it_is(ready, camera, images[1]),
@@ -154,6 +162,7 @@ def draw_pictures(scene: Scene, graph: SceneGraph, config: ReportConfig, progres
     ]
     structures = largest_first(graph.clusters("pipe system"))[: config.max_systems]
     # The page shows a single one over its whole width, several side by side.
+    whole = config.width, config.height
     size, letters = (whole, 1.0) if len(structures) == 1 else (_smaller(whole), _LETTERS)
 
     def draw(number: int) -> Picture | None:
@@ -166,13 +175,6 @@ def draw_pictures(scene: Scene, graph: SceneGraph, config: ReportConfig, progres
             if picture is not None:
                 pictures.append(picture)
     return pictures
-
-
-def _own_vertices(scene: Scene) -> Floats:
-    """``(n, 3)`` the vertices of all shapes that meshes of the scene have, each once."""
-    if scene.placement is None:
-        return scene.shapes.vertices
-    return scene.shapes.select(np.unique(scene.placement.shape)).vertices
 
 
 def largest_first(clusters: Sequence[Cluster]) -> list[Cluster]:
@@ -269,7 +271,7 @@ def _structure(
     unlike = -overview.forward if len(meshes) > _NEARLY_ALL * ready.scene.n_meshes else None
     aspect = ready.config.width / ready.config.height
     direction = three_quarter_view(renderer, meshes, alone=True, aspect=aspect, unlike=unlike)
-    camera = _camera(ready, meshes, direction, size)
+    camera = frame(renderer.points(meshes), direction, size, margin=MARGIN)
     image = renderer.picture(camera, Paint(paint, hatched, ghosted=~inside), _grounded(ready, meshes))
     open_ends = [end for end in ends if end.kind != "blind"]
     image, tagged = _related(ready, image, camera, units, edges, letters, open_ends)
@@ -389,21 +391,10 @@ def _local(ready: _Ready, point: Point) -> Point:
     return point[0] - x, point[1] - y, point[2] - z
 
 
-def _shown_meshes(ready: _Ready) -> Ints:
-    """What the overviews are framed on: everything but the ground, unless there is nothing else."""
-    shown = np.array([*(not part.ground for part in ready.parts), True], bool)[ready.row_of_mesh]
-    filled = np.diff(ready.scene.face_offsets) > 0
-    return np.flatnonzero(shown & filled if (shown & filled).any() else filled)
-
-
 def _smaller(size: tuple[int, int]) -> tuple[int, int]:
     """The size of pictures side by side; even, so that what is only hinted at can be drawn at half of it."""
     width, height = size
     return 2 * round(_SIDE_BY_SIDE * width / 2), 2 * round(_SIDE_BY_SIDE * height / 2)
-
-
-def _camera(ready: _Ready, meshes: Ints, direction: npt.ArrayLike, size: tuple[int, int]) -> Camera:
-    return frame(ready.renderer.points(meshes), direction, size, margin=_MARGIN)
 
 
 def _counted(count: int, noun: str) -> str:

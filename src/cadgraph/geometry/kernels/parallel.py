@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import os
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from functools import cache
 from pathlib import Path
@@ -17,10 +17,11 @@ from numpy.typing import NDArray
 
 from cadgraph.model.scene import Ints
 
-__all__ = ["ZERO", "compiled", "for_ranges", "readable", "use_threads"]
+__all__ = ["ZERO", "compiled", "for_ranges", "in_turn", "readable", "use_threads"]
 
 _F = TypeVar("_F", bound=Callable[..., Any])
 _T = TypeVar("_T", bound=np.generic)
+_Found = TypeVar("_Found")
 
 # Where an integer that kernels hand to each other starts: for a plain 0 they would be compiled once more.
 ZERO: Any = np.int64(0)
@@ -102,10 +103,7 @@ def for_ranges(kernel: Callable[[int, int], object], weights: Ints, workers: int
     Raises:
         ValueError: ``workers`` is below 1.
     """
-    n = len(weights)
-    n_workers = workers if workers is not None else _threads or os.cpu_count() or 1
-    if n_workers < 1:
-        raise ValueError(f"workers is {n_workers}; give at least 1")
+    n, n_workers = len(weights), _workers(workers)
     if n == 0:
         return
     if n_workers == 1 or n == 1:
@@ -118,3 +116,32 @@ def for_ranges(kernel: Callable[[int, int], object], weights: Ints, workers: int
     with ThreadPoolExecutor(n_workers) as pool:
         # list() raises what a kernel raised
         list(pool.map(lambda at: kernel(int(bounds[at]), int(bounds[at + 1])), range(len(bounds) - 1)))
+
+
+def in_turn(act: Callable[[int], _Found], n: int, workers: int | None = None) -> Iterator[_Found]:
+    """Gives ``act(0)``, ``act(1)`` and so on, in this order, worked out by threads: as many at a time as there are.
+
+    For a few large steps that leave the interpreter lock, as products of matrices do.
+
+    Args:
+        act: what is worked out; it gets its number.
+        n: how many.
+        workers: threads; all processors by default.
+
+    Raises:
+        ValueError: ``workers`` is below 1.
+    """
+    at_once = _workers(workers)
+    if at_once == 1 or n < 2:
+        yield from map(act, range(n))
+        return
+    with ThreadPoolExecutor(at_once) as pool:
+        for first in range(0, n, at_once):
+            yield from pool.map(act, range(first, min(first + at_once, n)))
+
+
+def _workers(workers: int | None) -> int:
+    n_workers = workers if workers is not None else _threads or os.cpu_count() or 1
+    if n_workers < 1:
+        raise ValueError(f"workers is {n_workers}; give at least 1")
+    return n_workers

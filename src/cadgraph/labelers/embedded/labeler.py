@@ -21,6 +21,7 @@ from cadgraph.model.vocabulary import Vocabulary
 __all__ = ["EmbeddedLabeler", "Verdicts", "judge", "spread"]
 
 _SHARED = 0.5  # greatest weight of what all repeats of a shape say together
+_ROWS = 4_096  # parts at once: arrays of all would take memory by their number
 
 
 @dataclass(frozen=True)
@@ -149,8 +150,13 @@ def spread(probabilities: Floats, shape: Ints) -> Floats:
     count = np.maximum(np.bincount(shape, minlength=n_shapes), 1)
     mean = np.zeros((n_shapes, probabilities.shape[1]))
     np.add.at(mean, shape, probabilities)
-    common = (mean / count[:, None])[shape]
-    agreement = np.sqrt(probabilities * common).sum(axis=1) ** 2
-    weight = _SHARED * agreement * (count[shape] > 1)
-    mixed: Floats = (1 - weight[:, None]) * probabilities + weight[:, None] * common
+    mean /= count[:, None]
+    mixed = np.empty_like(probabilities)
+    for first in range(0, len(shape), _ROWS):
+        some = slice(first, first + _ROWS)
+        own, of_shape = probabilities[some], shape[some]
+        common = mean[of_shape]
+        agreement = np.sqrt(own * common).sum(axis=1) ** 2
+        weight = (_SHARED * agreement * (count[of_shape] > 1))[:, None]
+        mixed[some] = (1 - weight) * own + weight * common
     return mixed

@@ -58,9 +58,8 @@ class Curve:
         return np.where(np.isnan(given), 0.0, given)
 
     def at_one(self, value: float) -> float:
-        """The same at one value, without an array."""
-        given = float(np.interp(value, self.at, self.gives))
-        return 0.0 if math.isnan(given) else given
+        """The same at one value, without an array; what was asked before is remembered."""
+        return _given(self, value)
 
 
 # Gaps of real plants: 1.5-4.5 mm between flanges without gasket, 3-8 mm behind the face of a slip-on flange, 0.1-0.6 mm
@@ -124,13 +123,14 @@ def add_up(kind: str, measured: Mapping[str, Floats], flags: Mapping[str, Floats
 
 def add_up_one(kind: str, measured: Mapping[str, float]) -> float:
     """The log-odds of one joint; see ``add_up``."""
-    return sum(_given(CURVES[name], value) for name, value in measured.items() if not math.isnan(value)) + BASE[kind]
+    return sum(CURVES[name].at_one(value) for name, value in measured.items() if not math.isnan(value)) + BASE[kind]
 
 
 @lru_cache(maxsize=_MOST_KEPT)
 def _given(curve: Curve, value: float) -> float:
     """What a curve gives at one value; a change of labels leaves most joints as they were."""
-    return curve.at_one(value)
+    given = float(np.interp(value, curve.at, curve.gives))
+    return 0.0 if math.isnan(given) else given
 
 
 @lru_cache(maxsize=_MOST_KEPT)
@@ -148,7 +148,7 @@ def tell(measured: Mapping[str, float], flags: Sequence[str] = (), said: str = "
         said: by what the file joins the two, where ``stated`` is one of the flags.
     """
     terms = [
-        (CURVES[name].says.format(CURVES[name].scale * value), _given(CURVES[name], value))
+        (CURVES[name].says.format(CURVES[name].scale * value), CURVES[name].at_one(value))
         for name, value in measured.items()
         if math.isfinite(value)
     ]

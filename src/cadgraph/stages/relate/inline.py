@@ -84,18 +84,21 @@ def recover_inline(piping: Piping, beliefs: Beliefs, likelihood: Curve) -> Pipin
         return piping
     likely = beliefs.of_groups(valves)
     others, devices = _rivals(piping, beliefs), likely_devices(piping, beliefs)
+    anything = tuple(_ON_IT)
     taken: set[int] = set()
     groups: list[Group] = []
     recovered = dict(piping.recovered)
     for piece in _pieces(piping, beliefs):
         share = max(float(likely[list(piece.parts)].mean()), LEAST)
-        said = f"the labeler gives it {share:.0%}", float(likelihood(np.log(share)))
+        said = likelihood.at_one(float(np.log(share)))
         other = float(others[list(piece.parts)].mean(axis=0).max())
-        rival = None if other < max(_RIVAL, share) else float(likelihood(np.log(other))) - said[1]
-        if _judged(piece, tuple(_ON_IT), said, rival).sure < _SURE:
+        rival = None if other < max(_RIVAL, share) else likelihood.at_one(float(np.log(other))) - said
+        if _sureness(_terms(piece, anything, share, said), anything, rival) < _SURE:
             continue
         on_it = _on_it(piping, beliefs, piece, devices)
-        found = _judged(piece, [kind for kind, parts in on_it.items() if parts], said, rival)
+        kinds = [kind for kind, parts in on_it.items() if parts]
+        terms = _terms(piece, kinds, share, said)
+        found = Recovered(_sureness(terms, kinds, rival), tell_terms(terms))
         if found.sure < _SURE or not taken.isdisjoint(piece.parts):
             continue
         parts = tuple(sorted({*piece.parts}.union(*on_it.values()) - taken))
@@ -113,25 +116,37 @@ def _rivals(piping: Piping, beliefs: Beliefs) -> Floats:
     return np.stack(shares, axis=1)
 
 
-def _judged(piece: _Piece, on_it: Sequence[str], said: Term, rival: float | None) -> Recovered:
-    """How sure it is that a piece is a valve, by its shape and by what the labeler says of it, and why.
+def _terms(piece: _Piece, on_it: Sequence[str], share: float, said: float) -> list[Term]:
+    """What speaks for and against a piece being a valve.
 
     Args:
         piece: the piece.
         on_it: what stands on it, keys of ``INLINE``.
-        said: what the labeler's word adds.
-        rival: what its word for something else of such a shape adds beyond that, in log-odds; None where there is none.
+        share: how likely the labeler holds it for a valve.
+        said: what that adds.
     """
-    terms = [("a straight piece of a line", INLINE["base"]), said]
+    terms = [("a straight piece of a line", INLINE["base"]), (f"the labeler gives it {share:.0%}", said)]
     for curve, value in ((WAIST, piece.waist), (THICKER, piece.thicker)):
-        terms += [(curve.says.format(value), float(curve(value)))] if float(curve(value)) else []
-    terms += [(_ON_IT[kind], INLINE[kind]) for kind in on_it]
+        given = curve.at_one(value)
+        terms += [(curve.says.format(value), given)] if given else []
+    return terms + [(_ON_IT[kind], INLINE[kind]) for kind in on_it]
+
+
+def _sureness(terms: Sequence[Term], on_it: Sequence[str], rival: float | None) -> float:
+    """How sure it is that a piece is a valve, 0..1.
+
+    Args:
+        terms: what speaks for it.
+        on_it: what stands on it.
+        rival: what the labeler's word for something else of such a shape adds beyond that for a valve, in log-odds;
+            None where there is none.
+    """
     total = sum(odds for _, odds in terms)
     odds = float(np.exp(total))
     # Nothing else has pieces of a valve on it.
     alike = total - (INLINE["operator"] if "operator" in on_it else 0.0)
     against = 1 if rival is None else 1 + float(np.exp(alike + rival))
-    return Recovered(odds / (against + odds), tell_terms(terms))
+    return odds / (against + odds)
 
 
 def _with_valves(
@@ -170,7 +185,7 @@ def _straight(piping: Piping, part: int, line: Centreline, valves: Collection[in
         return None
     thicker = piece.thicker if is_disc(line) else _thicker(piping, piece)
     waist = _narrowest(line, piping, rows)
-    narrows = float(WAIST(waist)) > 0 and not _is_spool(piping, piece)
+    narrows = WAIST.at_one(waist) > 0 and not _is_spool(piping, piece)
     return replace(piece, waist=waist if narrows else 1.0, thicker=thicker)
 
 
