@@ -41,6 +41,26 @@ def test_what_is_written_is_read_back_with_its_reasons(graph, tmp_path):
     assert scenario_text(again) == file.read_text(encoding="utf-8")
 
 
+@pytest.mark.parametrize(
+    ("before", "after", "words"),
+    [
+        ("gate valve", "check valve", "V-001 is a check valve by the graph, and is moved by hand in the scenario"),
+        ("check valve", "gate valve", "V-001 is a gate valve by the graph, and checks in the scenario"),
+        ("gate valve", "globe valve", None),
+        ("gate valve", None, None),
+    ],
+)
+def test_a_scenario_that_has_a_valve_do_what_its_kind_does_not_is_said(before, after, words, tmp_path):
+    def one_of(kind):
+        return network([unit("T-001"), unit("V-001", kind), terminal(1)], chain("T-001 V-001 X1"))
+
+    file = write_scenario(default_scenario(one_of(before)), tmp_path)
+    remarks = Process(one_of(after), file).state.remarks
+    assert [text for text in remarks if "by the graph" in text][:1] == (
+        [f"{words}: take it out of the scenario to follow the graph"] if words else []
+    )
+
+
 def plant(*order):
     """A tank and three valves in a row, whose tags are given in an order that a correction may change."""
     parts = [graphs.part(k, f"/body {k}") for k in range(4)]

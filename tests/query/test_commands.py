@@ -1,4 +1,5 @@
 import json
+import os
 
 import pytest
 
@@ -30,6 +31,52 @@ def test_lines_prints_the_list_with_its_sum(folder, capsys):
         == "16 lines, 37.47 m, direction unknown (?) in 4, in brackets: valves beside the line, on a tap"
     )
     assert any("T-001:N1" in row and "V-001" in row and "100" in row for row in out.splitlines())
+
+
+@pytest.fixture
+def corrected(folder):
+    """A folder to whose graph somebody has made a correction that it doesn't show."""
+    (folder / "corrections.json").write_text('{"format": "cadgraph-corrections", "version": 2, "events": []}')
+    later = (folder / "graph.json").stat().st_mtime + 10
+    os.utime(folder / "corrections.json", (later, later))
+    return folder
+
+
+def test_no_isolation_is_sure_where_the_graph_lacks_corrections(folder, corrected, capsys):
+    code, out, err = run(capsys, "isolate", corrected, "P-001", "--strict", "--json")
+    told = json.loads(out)
+    assert code == 1
+    assert told["isolated"] is None
+    assert told["doubts"][0]["at"] == "graph"
+    assert "corrections were made that this graph lacks" in told["doubts"][0]["text"]
+    assert "mind: " in err
+    (folder / "corrections.json").unlink()
+    code, out, err = run(capsys, "isolate", folder, "P-001", "--json")
+    assert not any(doubt["at"] == "graph" for doubt in json.loads(out)["doubts"])
+    assert err == ""
+
+
+@pytest.mark.parametrize(
+    "asked",
+    [
+        ("trace", "V-001"),
+        ("trace", "V-001", "--to", "P-001"),
+        ("what-if", "V-001"),
+        ("find", "--kind", "gate valve"),
+        ("overview",),
+        ("describe", "V-001"),
+    ],
+)
+def test_every_answer_says_that_the_graph_lacks_corrections(asked, corrected, capsys):
+    _, out, err = run(capsys, asked[0], corrected, *asked[1:])
+    assert "corrections were made that this graph" in out
+    assert "corrections were made that this graph lacks" in err
+
+
+def test_line_list_says_it_beside_what_may_be_read_by_others(corrected, capsys):
+    _, out, err = run(capsys, "lines", corrected, "--csv")
+    assert "corrections" not in out
+    assert "mind: " in err
 
 
 def test_lines_writes_csv_and_json_files(folder, capsys):

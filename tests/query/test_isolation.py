@@ -232,6 +232,10 @@ def test_a_valve_whose_kind_is_open_counts_where_all_that_it_may_be_shuts_off(gu
         ("bleed valve", False),
         ("non-return valve", False),
         ("safety valve", False),
+        ("three-way ball valve", False),
+        ("3 way plug valve", False),
+        ("diverter ball valve", False),
+        ("shut_off valve", True),
     ],
 )
 def test_only_kinds_that_are_known_to_shut_off_count(kind, counts):
@@ -264,6 +268,31 @@ def test_a_valve_on_the_side_of_a_run_does_not_close_the_run(fewest):
 
 def test_a_relief_valve_in_the_line_ends_the_section():
     assert closed(find_isolation(beside("relief valve", port=""), "P-001")) == ["V-002"]
+
+
+@pytest.mark.parametrize(
+    ("flows", "doubt"),
+    [
+        (("forward", "forward"), None),
+        (("unknown", "forward"), None),
+        (("backward", "backward"), "lets into this section"),
+        (("unknown", "backward"), "lets into this section"),
+        (("unknown", "unknown"), "nobody knows which way"),
+    ],
+)
+def test_a_relief_valve_that_may_let_into_the_section_is_a_doubt(flows, doubt):
+    nodes = [unit("P-001"), unit("V-001", GATE), unit("V-002", "relief valve"), unit("T-001"), unit("T-002")]
+    beyond = [*chain("P-001 V-002", direction=flows[0]), *chain("V-002 T-002", direction=flows[1])]
+    found = find_isolation(network(nodes, [*chain("T-001 V-001 P-001"), *beyond]), "P-001")
+    assert closed(found) == ["V-001"]
+    assert [one.name for one in found.doubts] == (["V-002"] if doubt else [])
+    assert found.isolated is (None if doubt else True)
+    assert not doubt or doubt in found.doubts[0].text
+
+
+def test_a_relief_valve_with_nothing_behind_it_that_could_flow_is_no_doubt():
+    graph = pump("T-001 V-001 P-001 V-002 X1", kinds=[("V-002", "relief valve"), ("X1", "blind")])
+    assert find_isolation(graph, "P-001").isolated
 
 
 def test_a_bypass_within_the_section_need_not_be_closed():

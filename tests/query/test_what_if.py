@@ -111,6 +111,15 @@ def test_a_tank_that_nothing_flows_to_any_more_is_told():
     assert tags(found.dead_headed) == {"P-001"}
 
 
+def test_a_pump_that_is_shut_in_on_both_sides_runs_dry_and_pumps_against_shut_valves():
+    nodes = [unit("T-001"), unit("T-002"), unit("P-001"), unit("V-001", "gate valve"), unit("V-002", "gate valve")]
+    graph = network(nodes, chain("T-001 V-001 P-001.N1") + chain("P-001.N2 V-002 T-002"))
+    both = what_if(graph, ["V-001", "V-002"])
+    assert tags(both.run_dry) == tags(both.dead_headed) == {"P-001"}
+    assert tags(what_if(graph, "V-001").dead_headed) == set()
+    assert tags(what_if(graph, "V-002").dead_headed) == {"P-001"}
+
+
 @pytest.mark.parametrize("relief", ["P-001.N2 J1 V-002 X2", "P-001.N2 J1 V-002.N1"])
 def test_a_relief_valve_that_a_pump_against_shut_valves_opens_is_named(relief):
     nodes = [unit("T-001"), unit("T-002"), unit("V-001", "gate valve"), unit("V-002", "relief valve"), unit("P-001")]

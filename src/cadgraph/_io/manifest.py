@@ -21,6 +21,7 @@ from cadgraph.errors import CadGraphError, FormatError
 __all__ = [
     "CORRECTIONS",
     "GRAPH_FILE",
+    "LACKING",
     "MANIFEST",
     "MARK",
     "RESULTS",
@@ -38,6 +39,9 @@ __all__ = [
 MANIFEST, GRAPH_FILE, CORRECTIONS = "manifest.json", "graph.json", "corrections.json"
 MARK = "cadgraph-manifest"
 """What tells our manifest from any other file of this name."""
+
+LACKING = "corrections were made that this graph lacks; they may change this: wait for the viewer, or build it again"
+"""What a reader of a graph that is behind is told."""
 
 RESULTS = (
     *("scene.usdc", "semantics.usda", "report.html", "picture.png", "timings.json"),
@@ -205,16 +209,25 @@ def changed_by_others(folder: Path) -> tuple[str, ...]:
 def behind(folder: Path) -> bool:
     """Whether a folder holds corrections that its graph doesn't show, or lacks those that it shows.
 
+    Without a manifest: whether they are younger than the graph, which then may not show them.
+
     Raises:
         FormatError: the manifest is damaged.
     """
     manifest = manifest_in(folder)
     if manifest is None:
-        return False
+        return _is_younger(folder / CORRECTIONS, folder / GRAPH_FILE)
     try:
         return sha256_of(result_path(folder / CORRECTIONS)) != manifest.corrections
     except OSError:
         return bool(manifest.corrections)
+
+
+def _is_younger(file: Path, other: Path) -> bool:
+    try:
+        return file.stat().st_mtime_ns > other.stat().st_mtime_ns
+    except OSError:
+        return False
 
 
 def _entry(row: Mapping[str, Any]) -> Entry:

@@ -15,13 +15,15 @@ from typing import Any
 from cadgraph._io.text import printable, shortened
 from cadgraph.errors import AskError
 
-__all__ = ["BUDGET", "Answer", "AskError", "among", "cell", "did_you_mean", "page_of", "row", "tokens"]
+__all__ = ["BEHIND", "BUDGET", "Answer", "AskError", "among", "cell", "did_you_mean", "page_of", "row", "tokens"]
 
 BUDGET = 1500
 """Most tokens of an answer, as :func:`tokens` counts them."""
 
 _BYTES_PER_TOKEN = 1.9  # measured: ids and coordinates take about two characters a token, unlike prose with four
-_NOTE = "page 9999 of 9999; next: page=9999"  # as long as the last line of a page can be
+BEHIND = "mind\tcorrections were made that this graph lacks: build it again"
+"""The last line of an answer from a graph that its folder holds corrections for that it doesn't show."""
+_NOTE = f"{BEHIND}\npage 9999 of 9999; next: page=9999"  # as long as the last lines of a page can be
 _NEAR = 3  # names offered where one is not found
 _MOST_LISTED = 12  # names that an error lists
 

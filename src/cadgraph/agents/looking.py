@@ -90,7 +90,7 @@ def _trust_of(plant: Plant) -> dict[str, Any]:
         "joints_in_doubt": len(likely_joints(network)),
         "diagnostics": dict(summary.diagnostics),
         "warnings": list(summary.warnings),
-        "behind_corrections": plant.is_behind,
+        "behind_corrections": plant.graph.lacks_corrections,
     }
 
 

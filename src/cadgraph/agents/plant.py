@@ -9,11 +9,9 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, get_args
 
-from cadgraph._io.manifest import behind, manifest_in
 from cadgraph._io.text import file_name
 from cadgraph.agents.answer import AskError, cell
-from cadgraph.errors import FormatError, UnknownNode
-from cadgraph.model.corrections import CORRECTIONS
+from cadgraph.errors import UnknownNode
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Box, Junction, Node, Terminal, Unit
 from cadgraph.query.lines import Line, find_lines
@@ -53,19 +51,6 @@ class Plant:
             FormatError: there is none, or it does not follow the format.
         """
         return cls(SceneGraph.load(path), path if path.is_dir() else path.parent)
-
-    @property
-    def is_behind(self) -> bool:
-        """Whether the folder holds corrections that its graph doesn't show, or may not show, as they are younger."""
-        if self.folder is None:
-            return False
-        try:
-            if manifest_in(self.folder) is not None:
-                return behind(self.folder)
-            corrected, written = ((self.folder / name).stat().st_mtime_ns for name in (CORRECTIONS, "graph.json"))
-        except (OSError, FormatError):
-            return False
-        return corrected > written
 
     @cached_property
     def lines(self) -> tuple[Line, ...]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import tomllib
 import warnings
 from collections.abc import Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -14,11 +15,13 @@ from rich.markup import escape
 from cadgraph._io.limits import FLOWS, read_text_within
 from cadgraph.cli.screen import err
 from cadgraph.config import Config, read_config
+from cadgraph.errors import CadGraphError
 
 __all__ = [
     "USE_METADATA",
     "AssetRootOption",
     "ConfigOption",
+    "CorrectedArgument",
     "GraphArgument",
     "MetadataOption",
     "MethodOption",
@@ -77,7 +80,22 @@ ScaleOption = Annotated[
 StrictOption = Annotated[
     bool, typer.Option("--strict", help="Refuse a file of which geometry is lost: damaged, unreadable or not found.")
 ]
-GraphArgument = Annotated[Path, typer.Argument(metavar="FOLDER", help="What 'cadgraph build' wrote, or a graph.json.")]
+_GRAPH = "What 'cadgraph build' wrote, or a graph.json."
+
+
+def _heed_corrections(graph: Path) -> Path:
+    """Says beside every answer that the graph it is given from lacks corrections."""
+    from cadgraph._io.manifest import LACKING, behind
+
+    with suppress(CadGraphError):  # what is wrong with the graph is told when it is read
+        if behind(graph if graph.is_dir() else graph.parent):
+            err.print(f"mind: {escape(str(graph))}: {LACKING}")
+    return graph
+
+
+GraphArgument = Annotated[Path, typer.Argument(metavar="FOLDER", help=_GRAPH, callback=_heed_corrections)]
+CorrectedArgument = Annotated[Path, typer.Argument(metavar="FOLDER", help=_GRAPH)]
+"""Of commands that look at corrections themselves."""
 
 
 USE_METADATA = {"label.use_metadata": True, "relate.use_metadata": True}

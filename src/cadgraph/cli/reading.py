@@ -10,7 +10,7 @@ import typer
 from rich.markup import escape
 
 from cadgraph.cli.application import app
-from cadgraph.cli.options import ConfigOption, GraphArgument, SetOption, settings_of
+from cadgraph.cli.options import ConfigOption, CorrectedArgument, GraphArgument, SetOption, settings_of
 from cadgraph.cli.panels import BUILD, EXPORT, LOOK
 from cadgraph.cli.screen import (
     REMEDY,
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
 @app.command(rich_help_panel=LOOK)
 def show(
-    graph: GraphArgument,
+    graph: CorrectedArgument,
     as_json: Annotated[bool, typer.Option("--json", help="Print the summary as JSON.")] = False,
 ) -> None:
     """Say what a graph holds, and what to mind: files that don't belong to it, a source that changed since.

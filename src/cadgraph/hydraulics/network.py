@@ -13,6 +13,7 @@ import numpy.typing as npt
 from cadgraph.hydraulics.laws import CREEP, Friction, area
 from cadgraph.hydraulics.settings import GRAVITY, PumpSetting, Scenario, ValveSetting
 from cadgraph.model.records import Junction, Point, Terminal, Unit
+from cadgraph.query.duty import moves_by_itself
 from cadgraph.query.network import Arc, Network
 
 __all__ = ["OUTSIDE", "SINK_PRESSURE", "Circuit", "LinkKind", "Nozzle", "bore_at", "ports_at", "resistance_of"]
@@ -26,6 +27,7 @@ UNKNOWN_LENGTH = 1.0  # m
 UNKNOWN_BORE = 0.05  # m
 THROUGH_LOSS = 1.0  # of entering or leaving a unit that the flow passes
 NOZZLE_LOSS = 0.5  # of a sharp-edged entrance; Crane, Technical Paper 410
+_DOES = {"hand": "is moved by hand", "check": "checks", "relief": "relieves"}  # what a valve does, by its duty
 _SLIGHTEST = 1e-3  # loss coefficient, so that every link has a slope
 
 Floats = npt.NDArray[np.float64]
@@ -286,6 +288,7 @@ class _Laying:
         if node.unit_type == "gauge":
             self._gauge(place, node, ports)
         elif node.unit_type == "valve" and node.tag in self.scenario.valves:
+            self._heed_kind(place, node, ports, self.scenario.valves[node.tag])
             self._valve(place, node, ports, self.scenario.valves[node.tag])
         elif node.unit_type == "pump" and node.tag in self.scenario.pumps:
             self._pump(place, node, ports, self.scenario.pumps[node.tag])
@@ -298,6 +301,15 @@ class _Laying:
         """A gauge takes no head from what passes it: all of its ports are one node."""
         port, arcs = next(iter(ports.items()))
         self.gauges[node.tag] = self._node(place, self._port_point(place, port, arcs))
+
+    def _heed_kind(self, place: str, node: Unit, ports: Mapping[str, tuple[Arc, ...]], setting: ValveSetting) -> None:
+        """Says where a scenario has a valve do what one of its kind doesn't: it may be older than the kind."""
+        by_kind = moves_by_itself(self.network, place, len(ports)) or "hand"
+        if node.kind is not None and setting.duty != by_kind:
+            self.remarks.append(
+                f"{node.tag} is a {node.kind} by the graph, and {_DOES[setting.duty]} in the scenario: take it out of "
+                "the scenario to follow the graph"
+            )
 
     def _valve(self, place: str, node: Unit, ports: Mapping[str, tuple[Arc, ...]], setting: ValveSetting) -> None:
         bore, names = self._bore_of(place), list(ports)

@@ -43,7 +43,8 @@ def _of_pumps(balance: Balance, cavitating: Collection[str]) -> Iterator[str]:
     tags = balance.circuit.tags
     for tag in cavitating:
         none = balance.through(tag) < TRICKLE
-        yield f"{tag} cavitates: " + ("nothing flows to it" if none else "it draws more than flows to it")
+        told = "nothing flows to it" if none else "it draws more than flows to it"
+        yield f"{tag} cavitates: {told}" + (", nor can anything leave it" if none and _is_shut_in(balance, tag) else "")
     for tag, speed in balance.speed.items():
         if speed > SHUT and tag in tags and tag not in cavitating and balance.through(tag) < TRICKLE:
             lift = balance.difference(tag)
@@ -56,6 +57,12 @@ def _of_pumps(balance: Balance, cavitating: Collection[str]) -> Iterator[str]:
         flow = balance.through(tag) * 3600 if tag in tags else 0.0
         if flow > _FAR_OUT * pump.flow:
             yield f"{tag} moves {flow:.1f} m3/h and is for {pump.flow:g}: nothing holds it back as it is supposed"
+
+
+def _is_shut_in(balance: Balance, pump: str) -> bool:
+    """Whether what a pump delivers reaches nothing of known pressure."""
+    end = balance.circuit.end[balance.circuit.tags[pump][0]]
+    return bool(balance.solution.shut_in[end])
 
 
 def _of_relief_valves(balance: Balance) -> Iterator[str]:

@@ -25,7 +25,7 @@ from cadgraph.hydraulics.settings import (
 from cadgraph.model.derived import kept_with
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Part, Terminal, Unit
-from cadgraph.query.duty import duty_of, suspect_of
+from cadgraph.query.duty import duty_of, moves_by_itself, suspect_of
 from cadgraph.query.network import Arc, Network
 
 __all__ = ["SPANS", "guess_end", "guess_scenario", "guess_valve", "tanks_of_gauges", "with_pressures"]
@@ -147,7 +147,7 @@ def guess_valve(network: Network, unit: Unit, duty: ValveDuty | None = None) -> 
     kind = (unit.kind or "").casefold()
     ports = ports_at(network, unit.id)
     found = duty_of(network, unit.id)
-    moved_by_itself = duty or (found if found in ("check", "relief") and len(ports) <= 2 else "hand")
+    moved_by_itself = duty or moves_by_itself(network, unit.id, len(ports)) or "hand"
     loss, of = next(
         ((k, name) for words, k, name in _LOSSES if any(word in (kind or moved_by_itself) for word in words)),
         (_OTHER_LOSS, "valve of another or unknown kind"),

@@ -19,7 +19,7 @@ from cadgraph._io.depth import MOST_LEVELS, is_too_deep
 from cadgraph._io.garbage import collector_paused
 from cadgraph._io.json_rows import read_json, write_json_rows
 from cadgraph._io.limits import GRAPH, decoded, read_text_within
-from cadgraph._io.manifest import GRAPH_FILE, no_graph, read_checked
+from cadgraph._io.manifest import GRAPH_FILE, behind, no_graph, read_checked
 from cadgraph._io.results import settle_if_free
 from cadgraph._io.run_folder import one_of_results
 from cadgraph._io.shard_files import FOLDER, sweep_shards
@@ -77,6 +77,7 @@ class SceneGraph:
     def __init__(self, document: GraphDocument | Content) -> None:
         self._content = document if isinstance(document, Content) else WholeContent(document)
         self.digest: str | None = None
+        self._folder: Path | None = None  # that it was read from
         self.nodes: Mapping[str, Node] = self._content.nodes
 
     def __repr__(self) -> str:
@@ -113,6 +114,19 @@ class SceneGraph:
     def diagnostics(self) -> tuple[Diagnostic, ...]:
         """Everything skipped, repaired, guessed or left unlabelled."""
         return self._content.diagnostics
+
+    @property
+    def lacks_corrections(self) -> bool:
+        """Whether the folder that it was read from holds corrections that it doesn't show; looked up anew each time.
+
+        A viewer writes each at once, and the graph when it has time to.
+        """
+        if self._folder is None:
+            return False
+        try:
+            return behind(self._folder)
+        except FormatError:
+            return True
 
     @property
     def site(self) -> Site:
@@ -496,6 +510,7 @@ class SceneGraph:
         else:
             graph = cls.from_json(data, str(target))
         graph.digest = hashlib.sha256(content).hexdigest()
+        graph._folder = target.parent if target.name == GRAPH_FILE else None
         return graph
 
     # Look-ups, made when first needed

@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
-__all__ = ["least_ports", "port_word"]
+import re
+
+__all__ = ["has_more_ways", "least_ports", "port_word"]
 
 # Fewest lines by words of the kind, the first that fits; then by type. A relief valve may blow into the open and a
 # filter's or a heat exchanger's other sides may be shut, so that fewer than what these have on paper are no fault.
-_BY_KIND = (("relief", 1), ("safety", 1), ("vent", 1), ("flow meter", 2), ("three-way", 3), ("3-way", 3))
+_BY_KIND = (("relief", 1), ("safety", 1), ("vent", 1), ("flow meter", 2))
 _BY_TYPE = {"valve": 2, "pump": 2, "gauge": 1, "tank": 1, "equipment": 1}
+_MORE_WAYS = re.compile(
+    r"\b(?:[3-9]|three|four|five|six|multi)[\s_-]*(?:way|port)|\b[lt][\s_-]*port|divert|change[\s_-]*over|selector"
+)
 _OF_EQUIPMENT = ("heat exchanger", "radiator", "boiler", "filter", "separator", "compressor")
 
 
@@ -19,15 +24,27 @@ def least_ports(unit_type: str, kind: str | None) -> int:
         kind: ``"check valve"``, ``"flow meter"``...; None where it is unknown.
 
     Returns:
-        2 for valves, pumps, flow meters and equipment that something flows through, 3 for three-way valves, else 1.
+        2 for valves, pumps, flow meters and equipment that something flows through, 3 for valves of more than
+        two ways, else 1.
     """
     words = (kind or "").casefold()
     for word, count in _BY_KIND:
         if word in words:
             return count
+    if unit_type == "valve" and has_more_ways(words):
+        return 3
     if any(word in words for word in _OF_EQUIPMENT):
         return 2
     return _BY_TYPE.get(unit_type, 1)
+
+
+def has_more_ways(kind: str) -> bool:
+    """Whether a valve of a kind joins more than two lines, so that it leaves one open however it stands.
+
+    Args:
+        kind: as people write it: ``"3-way ball valve"``, ``"three way plug valve"``, ``"diverter valve"``.
+    """
+    return _MORE_WAYS.search(kind.casefold()) is not None
 
 
 def port_word(unit_type: str) -> str:

@@ -8,6 +8,7 @@ from typing import Literal
 
 import numpy as np
 
+from cadgraph._io.manifest import LACKING
 from cadgraph.model.ports import least_ports, port_word
 from cadgraph.model.records import Joint, Part, Port, Unit
 from cadgraph.query.against import Against, is_gauge_by_place, standing_against
@@ -21,6 +22,7 @@ __all__ = [
     "mounted_words",
     "open_sides",
     "unconnected",
+    "unshown",
 ]
 
 # From this score on a joint that was not made makes an answer doubtful (ours): one in ten of such joins after all,
@@ -44,7 +46,8 @@ class Doubt:
     """Something that would change an answer if it were so.
 
     Args:
-        place: id of the unit, junction or terminal that it is at, or that the line there starts from.
+        place: id of the unit, junction or terminal that it is at, or that the line there starts from; empty for the
+            whole graph.
         name: its tag.
         text: what it is, in words.
         parts: ids of the two parts that are not joined; empty for a unit that has too few lines.
@@ -86,6 +89,11 @@ def open_sides(network: Network, places: Collection[str], about: About = "follow
     ends = [Doubt(place, network.name(place), _BY_PLACE.format(network.what(place))) for place in guessed]
     ends += [Doubt(place, network.name(place), _AS_DRAWN) for place in places if place in network.doubted]
     return (*short, *bare, *ends, *unjoined, *(_stands_against(network, home, one, about) for one in against))
+
+
+def unshown(network: Network) -> tuple[Doubt, ...]:
+    """The doubt that stands against every answer of a graph to which corrections were made that it doesn't show."""
+    return (Doubt("", "graph", LACKING),) if network.graph.lacks_corrections else ()
 
 
 def few_ports(network: Network, place: str) -> tuple[int, int] | None:

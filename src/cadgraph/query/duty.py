@@ -2,31 +2,44 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from typing import Literal
 
 from cadgraph.model.labels import Label
+from cadgraph.model.ports import has_more_ways
 from cadgraph.model.records import Unit
 from cadgraph.model.vocabulary import OPERATORS
 from cadgraph.query.network import Network
 
-__all__ = ["Duty", "Suspect", "blocked_relief", "duty_of", "is_doubted", "likely_kinds", "suspect_of", "worked_by_hand"]
+__all__ = [
+    "Duty",
+    "Suspect",
+    "blocked_relief",
+    "duty_of",
+    "is_doubted",
+    "likely_kinds",
+    "moves_by_itself",
+    "suspect_of",
+    "worked_by_hand",
+]
 
 Duty = Literal["shuts off", "likely", "unknown", "check", "relief", "control", "other"]
 """``likely``: its kind is open, but all that it may be shuts off; ``other``: a kind that isn't known to shut off."""
 
 # What stands for more than a hand-operated shut-off: a control valve may leak and moves by itself, so that rules of
 # lockout and tagout (OSHA 29 CFR 1910.147, EN ISO 14118) don't take it for an isolating device. The first word that
-# fits counts: a "ball check valve" is a check valve, a "globe control valve" a control valve.
+# fits counts: a "ball check valve" is a check valve, a "globe control valve" a control valve. A valve of more than two
+# ways ("3-way ball valve") always leaves one open.
 _DUTIES: tuple[tuple[tuple[str, ...], Duty], ...] = (
     (("relief", "safety valve"), "relief"),
-    (("check", "non-return", "nonreturn", "non return"), "check"),
+    (("check", "nonreturn", "non return"), "check"),
     (("control", "regulating", "reducing", "modulating", "solenoid", "safety cutoff"), "control"),
-    (("foot", "float", "release", "vacuum", "breather", "three-way", "3-way", "mixing", "diverting"), "other"),
+    (("foot", "float", "release", "vacuum", "breather", "mixing"), "other"),
     (
         (
             "ball", "gate", "globe", "butterfly", "plug", "diaphragm", "needle", "pinch", "isolating", "isolation",
-            "shut-off", "shutoff", "stop", "cock", "block valve", "drain valve",
+            "shut off", "shutoff", "stop", "cock", "block valve", "drain valve",
         ),
         "shuts off",
     ),
@@ -55,6 +68,18 @@ def duty_of(network: Network, place: str) -> Duty | None:
             return "unknown"
         sure += confidence
     return "likely" if sure >= _SURE else "unknown"
+
+
+def moves_by_itself(network: Network, place: str, n_ports: int) -> Literal["check", "relief"] | None:
+    """What a valve does by its kind without anybody moving it; None where it is moved, or has more than two ports.
+
+    Args:
+        network: of a finished graph.
+        place: id of a valve.
+        n_ports: of its ports that lines were found at.
+    """
+    duty = duty_of(network, place)
+    return duty if n_ports <= 2 and (duty == "check" or duty == "relief") else None
 
 
 def is_doubted(network: Network, place: str) -> bool:
@@ -164,8 +189,9 @@ def blocked_relief(network: Network, place: str) -> tuple[str, ...]:
 
 
 def _of_kind(kind: str) -> Duty:
-    folded = kind.casefold()
-    return next((duty for words, duty in _DUTIES if any(word in folded for word in words)), "other")
+    words = " ".join(re.split(r"[\s_-]+", kind.casefold()))
+    found: Duty = next((duty for known, duty in _DUTIES if any(word in words for word in known)), "other")
+    return "other" if found == "shuts off" and has_more_ways(kind) else found
 
 
 def _met(network: Network, place: str, wanted: str, but: int | None = None) -> tuple[str, int] | None:

@@ -8,11 +8,11 @@ from dataclasses import dataclass
 from cadgraph._io.text import tag_key
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Terminal
-from cadgraph.query.doubt import Doubt, few_ports, open_sides
+from cadgraph.query.doubt import Doubt, few_ports, open_sides, unshown
 from cadgraph.query.duty import blocked_relief, duty_of, is_doubted, likely_kinds, suspect_of, worked_by_hand
 from cadgraph.query.lines import find_lines
 from cadgraph.query.network import Network
-from cadgraph.query.section import Reached, Rules, Section, close_off, is_source
+from cadgraph.query.section import Reached, Rules, Section, close_off, is_fed, is_source
 
 __all__ = ["Closing", "Isolation", "Opening", "Passed", "find_isolation"]
 
@@ -20,6 +20,10 @@ PASSED_OVER = "is a check valve: passed over"
 
 
 _AS_VALVE = "taken for a valve, but nobody is sure of its body: a filter or a meter may look so"
+_INTO_IT = "a relief valve that lets into this section what lies behind it: it opens by itself"
+_EITHER_WAY = (
+    "a relief valve, and nobody knows which way: it may let into this section what lies behind it, and opens by itself"
+)
 _AS_RELIEF = (
     "taken for a relief valve and so for closed, yet it has a lever or wheel and no line behind it: were it a hand "
     "valve to the open, it would have to be closed, too"
@@ -191,7 +195,7 @@ def find_isolation(
         openings=tuple(
             opening for place in section.inside() if (opening := _opening(network, section, place)) is not None
         ),
-        doubts=(*_assumed(network, section), *open_sides(network, doubted, "feeds")),
+        doubts=(*unshown(network), *_assumed(network, section), *open_sides(network, doubted, "feeds")),
         shut_off=tuple(inside),
         shut_off_names=tuple(network.name(place) for place in inside),
         lines=_lines(network, section, line_of),
@@ -270,15 +274,29 @@ def _assumed(network: Network, section: Section) -> list[Doubt]:
     unknown = [place for place in needed if duty_of(network, place) == "unknown"]
     reliefs = [place for place in section.nearest if _is_closed_relief(network, section, place)]
     doubted = [
-        Doubt(place, network.name(place), _AS_RELIEF)
+        Doubt(place, network.name(place), why)
         for place in reliefs
-        if worked_by_hand(network, place) or place in network.doubted
+        if (why := _why_doubted(network, section, place)) is not None
     ]
     return [
         *(Doubt(p, network.name(p), f"{_unknown(network, p)}; taken for a shut-off valve as asked") for p in unknown),
         *(Doubt(p, network.name(p), _AS_VALVE) for p in needed if p not in unknown and is_doubted(network, p)),
         *doubted,
     ]
+
+
+def _why_doubted(network: Network, section: Section, relief: str) -> str | None:
+    """Why a relief valve that a section ends at may let something into it; None where it doesn't."""
+    if worked_by_hand(network, relief) or relief in network.doubted:
+        return _AS_RELIEF
+    if relief not in section.walls or not is_fed(network, section.start, relief, section.region, section.walls):
+        return None
+    # What flows through a valve is one: known on its far side, it is known on this one.
+    entry = section.reached[relief].arc
+    flows = {entry.flow, *(arc.flow for arc in network.main_arcs(relief) if arc.index != entry.index)}
+    if "along" in flows:
+        return None
+    return _INTO_IT if "against" in flows else _EITHER_WAY
 
 
 def _is_closed_relief(network: Network, section: Section, place: str) -> bool:

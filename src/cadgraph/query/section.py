@@ -12,7 +12,7 @@ from cadgraph.query.doubt import few_ports
 from cadgraph.query.duty import duty_of
 from cadgraph.query.network import Arc, Network
 
-__all__ = ["Reached", "Rules", "Section", "close_off", "is_source"]
+__all__ = ["Reached", "Rules", "Section", "close_off", "is_fed", "is_source"]
 
 
 @dataclass(frozen=True)
@@ -112,7 +112,7 @@ def close_off(network: Network, start: str, rules: Rules, fewest: bool) -> Secti
     reached, walls = _flood(network, start, barriers, rules)
     region = {start, *(place for place in reached if place not in walls)}
     needed = [
-        place for place in walls if not _is_relief(network, place) and _is_fed(network, start, place, region, walls)
+        place for place in walls if not _is_relief(network, place) and is_fed(network, start, place, region, walls)
     ]
     # What a valve on the side of a run leads to was not found; nobody knows whether it feeds.
     needed += [place for place in reached if place in region and place in closing and network.stands_aside(place)]
@@ -175,7 +175,7 @@ def _flood(
     return reached, walls
 
 
-def _is_fed(network: Network, start: str, wall: str, region: Collection[str], walls: Collection[str]) -> bool:
+def is_fed(network: Network, start: str, wall: str, region: Collection[str], walls: Collection[str]) -> bool:
     """Whether anything behind a valve could flow to it: an end that isn't blind, a tank, a pump, other equipment.
 
     What lies behind a valve of which only one side is known, nobody knows.

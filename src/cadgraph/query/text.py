@@ -175,6 +175,7 @@ def way_lines(found: Trace, start: str, end: str) -> list[str]:
     return [
         f"from {found.steps[0].name} to {last.name}{manner}: {_metres(last.distance, last.at_least)}",
         *aligned(rows, right=(0,)),
+        *(["", *_doubt_lines("this may not be so:", found.doubts)] if found.doubts else []),
     ]
 
 

@@ -9,7 +9,7 @@ from cadgraph._io.text import tag_key
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.pipework import Direction, Follow, check_direction
 from cadgraph.model.records import Terminal
-from cadgraph.query.doubt import Doubt, open_sides
+from cadgraph.query.doubt import Doubt, open_sides, unshown
 from cadgraph.query.lines import find_lines
 from cadgraph.query.network import Arc, Flow, Network
 
@@ -158,7 +158,7 @@ def trace(
         steps.append(_step(network, place, arcs, distances[place], line_of, ends))
     returns = tuple(_returns(network, order, arcs_to, follows))
     followed = sorted({arc.index for place in order for arc in network.arcs(place) if follows(arc)})
-    doubts = open_sides(network, order)
+    doubts = (*unshown(network), *open_sides(network, order))
     return Trace(first, direction, tuple(steps), tuple(halts), returns, doubts, tuple(followed))
 
 
@@ -213,14 +213,16 @@ def find_way(graph: SceneGraph | Network, start: str, end: str, direction: Direc
     if last not in arcs_to:
         others, _ = network.shortest(last, network.follower(None))
         halts = _unknown_on_the_way(network, first, last, direction) if direction else ()
-        return Trace(first, direction, (), halts=halts, doubts=open_sides(network, [*distances, *others]))
+        doubts = (*unshown(network), *open_sides(network, [*distances, *others]))
+        return Trace(first, direction, (), halts=halts, doubts=doubts)
     line_of = _line_of(network)
     arcs = arcs_to[last]
     steps = [_step(network, first, (), 0.0, line_of, first == last)]
     for number, arc in enumerate(arcs, 1):
         gone = steps[-1].distance + (arc.length or 0.0)
         steps.append(_step(network, arc.end, arcs[:number], gone, line_of, arc.end == last))
-    return Trace(first, direction, tuple(steps), connections=tuple(arc.index for arc in arcs))
+    passed = tuple(arc.index for arc in arcs)
+    return Trace(first, direction, tuple(steps), doubts=unshown(network), connections=passed)
 
 
 def _unknown_on_the_way(network: Network, first: str, last: str, direction: Direction) -> tuple[Halt, ...]:

@@ -11,7 +11,7 @@ from cadgraph._io.text import tag_key
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.pipework import Follow
 from cadgraph.model.records import Terminal, Unit
-from cadgraph.query.doubt import Doubt, open_sides
+from cadgraph.query.doubt import Doubt, open_sides, unshown
 from cadgraph.query.duty import Duty, blocked_relief, duty_of, likely_kinds
 from cadgraph.query.network import Arc, Network
 
@@ -76,8 +76,8 @@ class WhatIf:
         unknown: units and ends behind the valves that may be cut off or not, and tanks that may be refilled or not.
         still_fed: units and ends behind the valves to which a way of known direction leads from a source all the same.
         not_refilled: tanks that count as sources and that nothing else flows to any more; ``why`` likewise.
-        dead_headed: pumps that have no way left to a tank or an end but through a relief valve; ``why`` likewise, and
-            it names the relief valves that they may open.
+        dead_headed: pumps that have no way left to a tank or an end but through a relief valve, also such as would run
+            dry; ``why`` likewise, and it names the relief valves that they may open.
         run_dry: pumps among what is cut off; ``why`` likewise.
         doubts: where a way that was not found may feed what is cut off.
         assumptions: what the answer supposes, a sentence each.
@@ -196,7 +196,7 @@ class _Closing:
         filled = self._behind(lambda arc: self._follows(arc) and not self.network.is_dead(arc))
         not_refilled, perhaps_filled = self._not_refilled(filled, self.barriers)
         surely_not_refilled, _ = self._not_refilled(filled, shut_for_sure)
-        surely_dead_headed = self._dead_headed(cut, shut_for_sure)
+        surely_dead_headed = self._dead_headed(shut_for_sure)
         return WhatIf(
             closed=tuple(map(self.network.name, self.closed)),
             sources=tuple(map(self.network.name, self._by_tag(self.sources))),
@@ -213,7 +213,7 @@ class _Closing:
             ),
             dead_headed=tuple(
                 self._told(p, self._why_dead_headed(p, "" if p in surely_dead_headed else depends))
-                for p in self._by_tag(self._dead_headed(cut, self.barriers))
+                for p in self._by_tag(self._dead_headed(self.barriers))
             ),
             run_dry=run_dry,
             doubts=self._doubts(cut),
@@ -374,8 +374,8 @@ class _Closing:
                 perhaps.append(place)
         return nothing, perhaps
 
-    def _dead_headed(self, cut: Collection[str], barriers: Collection[str]) -> list[str]:
-        pumps = [p for p in self.network.places if self.network.unit_type(p) == "pump" and p not in cut]
+    def _dead_headed(self, barriers: Collection[str]) -> list[str]:
+        pumps = [p for p in self.network.places if self.network.unit_type(p) == "pump"]
         return [p for p in pumps if self._delivers(p, ()) and not self._delivers(p, barriers)]
 
     def _delivers(self, pump: str, blocked: Collection[str]) -> bool:
@@ -411,7 +411,11 @@ class _Closing:
 
     def _doubts(self, cut: Collection[str]) -> tuple[Doubt, ...]:
         pieces = [place for place in self.network.places if place in cut]
-        found = [*open_sides(self.network, self.closed), *open_sides(self.network, pieces, "feeds")]
+        found = [
+            *unshown(self.network),
+            *open_sides(self.network, self.closed),
+            *open_sides(self.network, pieces, "feeds"),
+        ]
         # A joint between a closed valve and what it cuts off changes nothing.
         inner = {*self.closed, *cut}
         return tuple(
