@@ -118,7 +118,7 @@ def export(
             "--to",
             metavar="FORMAT",
             help="One of att, csv, dexpi, epanet, gltf, graphml, html, ifc, isometric, json, labels-csv, mjcf, "
-            "networkx-json, pcf, shards or usd.",
+            "networkx-json, pcf, shards or usd. 'shards' makes graph.json itself an index of them.",
         ),
     ],
     output: Annotated[

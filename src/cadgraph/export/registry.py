@@ -236,7 +236,7 @@ _FORMATS = (
     Format("pcf", "each line as an Isogen piping component file", _write_pcf),
     Format(
         "shards",
-        "cadgraph's own format as for large plants, however small: an index, and shards that are read when asked for",
+        "cadgraph's own format as for large plants, however small: graph.json becomes an index of shards",
         lambda graph, path, _: Written((graph.save(path, shard_above=0),)),
     ),
     Format(

@@ -72,7 +72,7 @@ def _of_usual_size(scene: Scene, path: Path) -> Scene:
         if len(far) == scene.n_meshes:
             raise LoadError(
                 f"{path}: all of it lies farther out than a million kilometres, one unit being "
-                f"{scene.source.meters_per_unit:g} m; say the unit with --unit mm (or m, cm, in, ft)"
+                f"{scene.source.meters_per_unit:g} m; say the unit with --unit mm (or m, cm, in, ft; load.unit)"
             )
         note = Diagnostic("too-far", TOO_FAR_TOLD, tuple(scene.paths[i] for i in far))
         scene = _noted(scene.select(np.setdiff1d(np.arange(scene.n_meshes), far)), note)
@@ -204,7 +204,7 @@ def _with_unit(scene: Scene, config: LoadConfig, path: Path) -> Scene:
     if not evidence.clear:
         raise LoadError(
             f"{path}: the file names no unit of length and its parts don't tell one clearly; say it with --unit mm (or "
-            f"m, cm, in, ft): it is {evidence.largest:.4g} units across{_hint(scene)}"
+            f"m, cm, in, ft; load.unit): it is {evidence.largest:.4g} units across{_hint(scene)}"
         )
     told = (
         f"the file names no unit; taken as {unit}, in which {evidence.hits[unit]} of {evidence.n_diameters} diameters "

@@ -491,7 +491,8 @@ class SceneGraph:
         target = Path(path)
         target = target / GRAPH_FILE if target.is_dir() else target
         settle_if_free(target.parent)
-        remedy = "'cadgraph build' makes it"
+        is_graph = target.suffix.lower() == ".json"
+        remedy = "'cadgraph build' makes it" if is_graph else "give the folder that 'cadgraph build' wrote"
         try:
             content = read_checked(target, GRAPH, FormatError, remedy)
         except FormatError as error:

@@ -10,6 +10,7 @@ from typing import Literal
 
 from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.graph import SceneGraph
+from cadgraph.model.mechanisms import NOT_MOVABLE
 from cadgraph.model.records import Connected, Junction, Terminal
 from cadgraph.query.doubt import unconnected
 from cadgraph.query.network import Network
@@ -18,6 +19,7 @@ __all__ = ["Summary", "connection_between", "connection_words", "end_words", "sh
 
 # What a note says whose paths were cut short.
 _IN_ALL = re.compile(r"\(([\d,]+) in all\)$")
+_OF_UNITS = frozenset({NOT_MOVABLE})  # findings about a unit each, whose meshes they name
 _GRAVE = frozenset({
     "broken-chunk", "broken-element", "broken-mesh", "broken-node", "broken-object", "broken-primitive", "cut-short",
     "damaged-entity", "trailing-bytes", "unbalanced-tree", "unreadable",
@@ -99,7 +101,8 @@ def summarize(graph: SceneGraph) -> Summary:
     findings: Counter[str] = Counter()
     for finding in graph.diagnostics:
         whole = _IN_ALL.search(finding.message)
-        findings[finding.code] += int(whole[1].replace(",", "")) if whole else max(1, len(finding.meshes))
+        n_meshes = 1 if finding.code in _OF_UNITS else len(finding.meshes)
+        findings[finding.code] += int(whole[1].replace(",", "")) if whole else max(1, n_meshes)
     return Summary(
         source=graph.source.path,
         n_meshes=graph.source.n_meshes,

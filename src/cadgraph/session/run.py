@@ -276,7 +276,8 @@ def write_rest(
         except BaseException as stop:
             _keep_report(target, new)
             new.commit()
-            stop.add_note("the graph is written; only the report is still the one before")
+            left = "only the report is still the one before" if report_file.exists() else "only the report is missing"
+            stop.add_note(f"the graph is written; {left}")
             raise
         files["picture"] = target / "picture.png"
     else:

@@ -89,10 +89,10 @@ def _stl_damage(path: Path) -> str | None:
         return None
     if size < _STL_HEADER:
         return f"no STL file (only {size} bytes are there); copy or export it again"
+    other = name_content(path)
+    if other not in (None, "stl"):
+        return f"no STL file (its content looks like {other}); give it the suffix of that format"
     if size < _stl_size(head):
-        other = name_content(path)
-        if other:
-            return f"no STL file (its content looks like {other}); give it the suffix of that format"
         promised = int.from_bytes(head[80:84], "little")
         return (
             f"no STL file, or cut short (it promises {promised:,} triangles, and {(size - _STL_HEADER) // 50:,} are "
