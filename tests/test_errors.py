@@ -19,7 +19,7 @@ def test_the_tree_in_the_docstring_is_the_tree():
 
 def test_a_missing_extra_says_how_to_install_it():
     error = MissingExtra("reading STEP files", "cad")
-    told = "reading STEP files needs an extra: pip install 'cadgraph[cad]', in a checkout pip install '.[cad]'"
+    told = "reading STEP files needs an extra: in the checkout of cadgraph, pip install '.[cad]'"
     assert str(error) == told
     assert error.extra == "cad"
 

@@ -89,7 +89,8 @@ class MissingExtra(CadGraphError):
     def __init__(self, purpose: str, extra: str) -> None:
         self.purpose, self.extra = purpose, extra
         super().__init__(
-            f"{purpose} needs an extra: pip install 'cadgraph[{extra}]', in a checkout pip install '.[{extra}]'"
+            # Of no package index: whoever took the name there would be installed.
+            f"{purpose} needs an extra: in the checkout of cadgraph, pip install '.[{extra}]'"
         )
 
 
@@ -104,7 +105,7 @@ class MissingPackage(CadGraphError):
     def __init__(self, command: str, package: str) -> None:
         self.package = package
         super().__init__(
-            f"'cadgraph {command}' comes with the package {package}: pip install {package}, in a checkout "
+            f"'cadgraph {command}' comes with the package {package}: in the checkout of cadgraph, "
             f"pip install ./packages/{package}"
         )
 

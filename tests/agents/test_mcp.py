@@ -312,7 +312,7 @@ def test_want_of_the_library_names_the_extra(several, capsys, monkeypatch):
     monkeypatch.setitem(sys.modules, "cadgraph.agents.mcp.stdio", None)
     monkeypatch.delitem(sys.modules, "cadgraph.agents.mcp.stdio")
     monkeypatch.setitem(sys.modules, "mcp.server.stdio", None)
-    assert "pip install 'cadgraph[agents]'" in refused(capsys, "serve", several)
+    assert "pip install '.[agents]'" in refused(capsys, "serve", several)
 
 
 @pytest.mark.parametrize(

@@ -125,7 +125,7 @@ def test_the_extra_that_is_missing_is_named(folder, capsys, monkeypatch):
     for name in [name for name in sys.modules if name.startswith("cadgraph.serve")]:
         monkeypatch.delitem(sys.modules, name)
     monkeypatch.setitem(sys.modules, "uvicorn", None)
-    assert "pip install 'cadgraph[view]'" in refused(capsys, "view", folder)
+    assert "pip install '.[view]'" in refused(capsys, "view", folder)
 
 
 @pytest.mark.parametrize(

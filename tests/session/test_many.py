@@ -134,7 +134,7 @@ def test_what_goes_with_one_scene_alone_is_refused_for_several(tmp_path, scenes,
 def test_without_ray_it_is_named(tmp_path, scenes, capsys, monkeypatch, many):
     monkeypatch.setitem(__import__("sys").modules, "ray", None)
     said = refused(capsys, "build", *scenes[: 2 if many else 1], "-o", tmp_path / "out", "--ray")
-    assert said == "error: --ray needs an extra: pip install 'cadgraph[ray]', in a checkout pip install '.[ray]'"
+    assert said == "error: --ray needs an extra: in the checkout of cadgraph, pip install '.[ray]'"
     assert not (tmp_path / "out").exists()
 
 
