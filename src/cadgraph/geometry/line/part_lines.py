@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from cadgraph.geometry.kernels.parallel import for_ranges
 from cadgraph.geometry.line.centreline import Branch, Centreline, End, NotTube
 from cadgraph.geometry.line.fit import fit_ends
 from cadgraph.geometry.line.mouths import are_on_one_axis, join_mouths, mouths_of, run_inward, turned_outward
@@ -100,11 +101,17 @@ def _trace(
     scene: Scene, properties: Properties, known: ShapeAnalysis, shapes: Sequence[int], workers: int | None
 ) -> dict[int, Centreline | None]:
     """The lines of distinct shapes, where each occurs first."""
-    breadth = properties.obb_extents[known.first[list(shapes)]]
-    lines: dict[int, Centreline | None] = {}
-    for shape, flat in zip(shapes, (breadth[:, 2] < _FLAT * breadth[:, 1]).tolist(), strict=True):
-        triangles = _triangles(scene, properties, int(known.first[shape]))
-        lines[shape] = _explained(_outward(known, shape, triangles), flat, triangles)
+    first = known.first[list(shapes)]
+    breadth = properties.obb_extents[first]
+    flat = (breadth[:, 2] < _FLAT * breadth[:, 1]).tolist()
+    lines: dict[int, Centreline | None] = dict.fromkeys(shapes)
+
+    def explain(start: int, end: int) -> None:
+        for number in range(start, end):
+            triangles = _triangles(scene, properties, int(first[number]))
+            lines[shapes[number]] = _explained(_outward(known, shapes[number], triangles), flat[number], triangles)
+
+    for_ranges(explain, properties.n_triangles[first], workers)
     rest = [shape for shape, line in lines.items() if line is None]
     if rest:
         meshes = known.first[rest]
