@@ -121,6 +121,14 @@ def test_sizes_alone_tell_of_many_meshes_and_not_of_few():
     assert codes(finish(scene_of(huge[:12], meters_per_unit=1.0), LoadConfig(), FILE)) == []
 
 
+def test_strokes_of_a_dial_by_the_hundred_tell_no_unit():
+    boxes = [moved(shapes.box((0.3, 0.2, 0.1)), (0.5 * x, 0.5 * y, 0)) for x in range(8) for y in range(6)]
+    strokes = [moved(shapes.box((0.002, 0.0003, 0.0001)), (0.01 * k, 0, 0.2)) for k in range(300)]
+    assert codes(finish(scene_of([*boxes, *strokes], meters_per_unit=1.0), LoadConfig(), FILE)) == []
+    small = [(vertices / 1000, faces) for vertices, faces in [*boxes, *strokes]]
+    assert codes(finish(scene_of(small, meters_per_unit=1.0), LoadConfig(), FILE)) == ["unit-doubt"]
+
+
 def test_a_scale_is_that_of_metres_where_no_unit_is_stated_and_never_beside_a_unit():
     unsaid = scene_of(pipes(), unit_stated=False)
     found = finish(unsaid, LoadConfig(scale=0.5), FILE)

@@ -29,6 +29,7 @@ _MOST_CORNERS = 20_000  # of a shape that is looked at; no pipe has more
 _MOST_SHAPES = 3000  # so many shapes, evenly chosen, tell
 _FEW_FOR_SIZES = 20  # meshes
 _ODD, _USUAL = 16.0, 4.0  # sums of two squared standard deviations: one plant in 3,000 is odder, six in seven are not
+_LEAST_SHARE = 1e-3  # of the scene's extent; smaller shapes are not counted
 _SCENE = (np.log(12.0), 1.7)  # natural logarithm of the extent of a scene [m]: middle and spread
 _MESH = (np.log(0.25), 1.2)  # likewise of the median extent of its meshes
 
@@ -126,6 +127,8 @@ def weigh_units(scene: Scene, meters_per_unit: float) -> UnitEvidence:
     extents, diameters = _sizes(scene)
     low, high = bounds_of(scene)
     largest = float((high - low).max()) / meters_per_unit
+    # Strokes of a dial by the hundred are no parts of a plant that their number could tell the unit of.
+    extents = extents[extents >= _LEAST_SHARE * largest * meters_per_unit]
     median = float(np.median(extents)) / meters_per_unit if len(extents) else 0.0
     different = distinct(diameters / meters_per_unit)
     standard = np.log(sorted({outer for _, outer in outer_diameters()}))
