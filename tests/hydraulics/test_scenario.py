@@ -61,6 +61,18 @@ def test_a_scenario_that_has_a_valve_do_what_its_kind_does_not_is_said(before, a
     )
 
 
+def test_a_scenario_in_which_a_check_valve_lets_out_against_the_flow_is_said(tmp_path):
+    def flowing(direction):
+        nodes = [unit("T-001"), unit("V-001", "check valve", ports=("N1", "N2")), terminal(1)]
+        edges = [*chain("T-001 V-001.N1", direction=direction), *chain("V-001.N2 X1", direction=direction)]
+        return network(nodes, edges)
+
+    file = write_scenario(default_scenario(flowing("forward")), tmp_path)
+    assert not any("lets out" in text for text in Process(flowing("forward"), file).state.remarks)
+    [told] = [text for text in Process(flowing("backward"), file).state.remarks if "lets out" in text]
+    assert told.startswith("V-001 lets out at N2 in the scenario, and by the graph it flows the other way")
+
+
 def plant(*order):
     """A tank and three valves in a row, whose tags are given in an order that a correction may change."""
     parts = [graphs.part(k, f"/body {k}") for k in range(4)]

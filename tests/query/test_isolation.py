@@ -236,6 +236,17 @@ def test_a_valve_whose_kind_is_open_counts_where_all_that_it_may_be_shuts_off(gu
         ("3 way plug valve", False),
         ("diverter ball valve", False),
         ("shut_off valve", True),
+        ("non-rising stem gate valve", True),
+        ("Gate valve/OS&Y", True),
+        ("2-piece ball valve DN 50 PN 16", True),
+        ("3/2 way ball valve", False),
+        ("Y-port ball valve", False),
+        ("pressure regulator globe valve", False),
+        ("thermostatic globe valve", False),
+        ("ballcock", False),
+        ("one-way ball valve", False),
+        ("non-shut-off valve", False),
+        ("tilting disc non\u2011return ball valve", False),
     ],
 )
 def test_only_kinds_that_are_known_to_shut_off_count(kind, counts):
@@ -288,6 +299,35 @@ def test_a_relief_valve_that_may_let_into_the_section_is_a_doubt(flows, doubt):
     assert [one.name for one in found.doubts] == (["V-002"] if doubt else [])
     assert found.isolated is (None if doubt else True)
     assert not doubt or doubt in found.doubts[0].text
+
+
+@pytest.mark.parametrize("kind", ["ball valve", "gate valve"])
+def test_a_valve_that_more_than_two_lines_end_at_is_not_relied_on(kind):
+    nodes = [unit("T-001"), unit("T-002"), unit("P-001"), unit("V-001", kind), unit("V-002", GATE), terminal(1)]
+    edges = [*chain("T-001.N1 V-001.N1"), *chain("V-001.N2 P-001.N1"), *chain("V-001.N3 T-002.N1")]
+    found = find_isolation(network(nodes, [*edges, *chain("P-001.N2 V-002 X1")]), "P-001")
+    assert found.isolated is False
+    assert [(one.name, "more than two lines" in one.why) for one in found.passed] == [("V-001", True)]
+
+
+def test_the_fewest_valves_keep_pumps_and_equipment_off_too():
+    graph = pump("E-001.N2 V-001 P-001.N1", "P-001.N2 V-002 E-002.N1", "E-002.N2 V-003 V-004 E-001.N1")
+    assert closed(find_isolation(graph, "E-002", fewest=True)) == ["V-002", "V-003"]
+
+
+def test_a_pump_that_is_shut_in_with_a_unit_is_told():
+    graph = pump("T-001 V-001 P-001 E-001 V-002 T-002")
+    assert "P-001 shut in with it: stop what runs before a valve is closed" in find_isolation(graph, "E-001").remarks
+    assert not any("shut in with it" in text for text in find_isolation(graph, "P-001").remarks)
+
+
+def test_a_check_valve_whose_two_sides_contradict_each_other_holds_nothing_back():
+    nodes = [unit("T-001"), unit("V-001", "check valve"), unit("P-001"), unit("V-002", GATE), unit("T-002")]
+    edges = [*chain("T-001 V-001"), *chain("P-001 V-001"), *chain("P-001 V-002 T-002")]
+    for target, others in (("T-001", ["V-002"]), ("P-001", ["V-002"])):
+        found = find_isolation(network(nodes, edges), target, check_valves=True)
+        assert closed(found) == others
+        assert "V-001 is a check valve, but which way it lets through is not known" in found.remarks
 
 
 def test_a_relief_valve_with_nothing_behind_it_that_could_flow_is_no_doubt():

@@ -44,8 +44,28 @@ def test_valves_that_only_together_cut_off():
     assert "V-009" not in tags(what_if(pumping(), "V-005").cut_off)
     assert "V-009" not in tags(what_if(pumping(), "V-007").cut_off)
     found = what_if(pumping(), ["V-005", "V-007"])
-    assert {"V-008", "V-009", "G-005"} <= tags(found.cut_off)
+    assert {"V-008", "V-009", "G-005"} <= tags([*found.cut_off, *found.unknown])
     assert tags(found.dead_headed) == {"P-001", "P-002"}
+
+
+def test_an_open_end_that_a_tank_may_run_back_to_is_unknown_and_not_cut_off():
+    nodes = [unit("T-001"), unit("T-002"), unit("P-001"), junction(1), terminal(1)]
+    nodes += [unit(tag, "gate valve") for tag in ("V-001", "V-002", "V-003")]
+    edges = chain("T-001.N1 V-001 P-001.N1") + chain("P-001.N2 J1 V-002 T-002.N1") + chain("J1 V-003 X1")
+    found = what_if(network(nodes, edges), "V-001")
+    assert tags(found.cut_off) == tags(found.run_dry) == {"P-001"}
+    assert {one.name: one.why for one in found.unknown} == dict.fromkeys(
+        ("V-002", "V-003", "terminal-001"), "a tank that it fed may run back to it, and out at an open end"
+    )
+    both = what_if(network(nodes, edges), ["V-001", "V-002"])
+    assert tags(both.cut_off) == {"P-001", "V-003", "terminal-001"}, "with V-002 shut nothing runs back"
+
+
+def test_through_a_check_valve_no_tank_runs_back():
+    nodes = [unit("T-001"), unit("T-002"), junction(1), terminal(1)]
+    nodes += [unit("V-001", "gate valve"), unit("V-002", "check valve"), unit("V-003", "gate valve")]
+    edges = chain("T-001.N1 V-001 J1 V-002 T-002.N1") + chain("J1 V-003 X1")
+    assert tags(what_if(network(nodes, edges), "V-001").cut_off) == {"V-002", "V-003", "terminal-001"}
 
 
 def test_what_pipes_of_unknown_direction_may_feed_is_unknown():
@@ -233,7 +253,9 @@ def test_given_sources_are_the_only_ones():
 
 
 def test_an_instrument_on_a_tap_goes_with_its_line():
-    assert {"G-007", "V-014"} <= tags(what_if(pumping(), ["V-005", "V-007"]).cut_off)
+    nodes = [unit("T-001"), unit("V-001", "gate valve"), junction(1), unit("V-002", "gate valve"), unit("G-001")]
+    graph = network([*nodes, terminal(1)], chain("T-001 V-001 J1 X1") + chain("J1 V-002 G-001"))
+    assert {"G-001", "V-002"} <= tags(what_if(graph, "V-001").cut_off)
     assert tags(what_if(pumping(), "V-014").cut_off) == {"G-007"}
 
 

@@ -323,8 +323,15 @@ class _Laying:
                 return
             ends.append(self._outside(place, self.points[ends[0]]))
             names.append(OUTSIDE)
-        if setting.duty != "hand" and setting.towards == names[0]:
-            ends.reverse()
+        if setting.duty != "hand":
+            out = setting.towards
+            if out is not None and out in ports and (_runs(ports[out], outward=False) or self._flows_back(ports, out)):
+                self.remarks.append(
+                    f"{node.tag} lets out at {out} in the scenario, and by the graph it flows the other way: take it "
+                    "out of the scenario to follow the graph"
+                )
+            if out == names[0]:
+                ends.reverse()
         kind = {"check": LinkKind.CHECK, "relief": LinkKind.RELIEF}.get(setting.duty, LinkKind.VALVE)
         loss = setting.k + (1.0 if OUTSIDE in names else 0.0)  # what leaves keeps no speed
         link = self._link(kind, ends[0], ends[1], bore, max(loss, _SLIGHTEST), place)
@@ -332,11 +339,22 @@ class _Laying:
             self.offset[link] = self.scenario.head(setting.pressure or 0.0)
         self.tags[node.tag] = (link,)
 
+    @staticmethod
+    def _flows_back(ports: Mapping[str, tuple[Arc, ...]], out: str) -> bool:
+        """Whether it is known to flow out at the other port of a valve than the one that it lets out at."""
+        others = [arcs for port, arcs in ports.items() if port != out]
+        return not _runs(ports[out], outward=True) and any(_runs(arcs, outward=True) for arcs in others)
+
     def _crossing(self, place: str, node: Unit, ends: Sequence[int], setting: ValveSetting, bore: float) -> None:
         """A valve of three or more ports: each opens into a middle, and shutting it shuts all."""
         middle = self._middle(place, ends)
         if setting.duty != "hand":
             self.remarks.append(f"{node.tag} has {len(ends)} ports, so it is taken for a valve that is moved by hand")
+        else:
+            self.remarks.append(
+                f"{node.tag} has {len(ends)} ports, and shut is taken for all of them; such a valve leaves one open as "
+                "a rule"
+            )
         self.tags[node.tag] = tuple(
             self._link(LinkKind.VALVE, end, middle, bore, max(setting.k / 2, _SLIGHTEST), place) for end in ends
         )

@@ -11,7 +11,8 @@ __all__ = ["has_more_ways", "least_ports", "port_word"]
 _BY_KIND = (("relief", 1), ("safety", 1), ("vent", 1), ("flow meter", 2))
 _BY_TYPE = {"valve": 2, "pump": 2, "gauge": 1, "tank": 1, "equipment": 1}
 _MORE_WAYS = re.compile(
-    r"\b(?:[3-9]|three|four|five|six|multi)[\s_-]*(?:way|port)|\b[lt][\s_-]*port|divert|change[\s_-]*over|selector"
+    r"\b(?:[3-9]|three|four|five|six|multi)[\s_-]*(?:way|port)|\b[3-9]w\b|\b[0-9]\s*[/ ]\s*[0-9]\s*way"
+    r"|\b[lty][\s_-]*port|divert|change[\s_-]*over|selector|shuttle"
 )
 _OF_EQUIPMENT = ("heat exchanger", "radiator", "boiler", "filter", "separator", "compressor")
 

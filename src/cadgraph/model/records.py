@@ -16,6 +16,8 @@ from cadgraph.model.labels import Guess, Label
 from cadgraph.model.record import Record
 
 __all__ = [
+    "BY_USER",
+    "CUT",
     "ROWS_OF",
     "Access",
     "Adjacent",
@@ -384,6 +386,10 @@ class ReachedFrom(Record):
     source: str
     target: str
     kind: Literal["reached_from"] = "reached_from"
+
+
+BY_USER, CUT = "joined by a user", "cut by a user"
+"""The only reason of a joint that a user made, or cut."""
 
 
 class Joint(Record):

@@ -13,7 +13,7 @@ from functools import cached_property
 import numpy as np
 
 from cadgraph.model.ports import least_ports
-from cadgraph.model.records import Part, Terminal, Unit
+from cadgraph.model.records import CUT, Part, Terminal, Unit
 from cadgraph.model.vocabulary import FASTENERS
 from cadgraph.query.network import Network
 
@@ -84,6 +84,12 @@ class _Search:
         return frozenset(name for name, tree in trees.items() if tree.get("connector") or tree.get("unit"))
 
     @cached_property
+    def _cut(self) -> frozenset[frozenset[str]]:
+        """The pairs of parts of which a user says that they don't join."""
+        joints = self.network.open_joints
+        return frozenset(frozenset((joint.first, joint.second)) for joint in joints if joint.reasons == (CUT,))
+
+    @cached_property
     def _ends_at(self) -> dict[str, list[Terminal]]:
         """The ends outside that a part carries or lies against."""
         found: dict[str, list[Terminal]] = {}
@@ -104,7 +110,7 @@ class _Search:
                 if not isinstance(before, Part):
                     continue
                 for other in self.network.graph.neighbors(before):
-                    if other.id in seen:
+                    if other.id in seen or frozenset((here, other.id)) in self._cut:
                         continue
                     for place in self._stands(other, before):
                         if place not in told:

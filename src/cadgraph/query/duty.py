@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import unicodedata
 from dataclasses import dataclass
 from typing import Literal
 
@@ -18,6 +19,7 @@ __all__ = [
     "blocked_relief",
     "duty_of",
     "is_doubted",
+    "joins_more",
     "likely_kinds",
     "moves_by_itself",
     "suspect_of",
@@ -28,22 +30,31 @@ Duty = Literal["shuts off", "likely", "unknown", "check", "relief", "control", "
 """``likely``: its kind is open, but all that it may be shuts off; ``other``: a kind that isn't known to shut off."""
 
 # What stands for more than a hand-operated shut-off: a control valve may leak and moves by itself, so that rules of
-# lockout and tagout (OSHA 29 CFR 1910.147, EN ISO 14118) don't take it for an isolating device. The first word that
-# fits counts: a "ball check valve" is a check valve, a "globe control valve" a control valve. A valve of more than two
-# ways ("3-way ball valve") always leaves one open.
+# lockout and tagout (OSHA 29 CFR 1910.147, EN ISO 14118) don't take it for an isolating device. The first that fits
+# counts: a "ball check valve" is a check valve, a "globe control valve" a control valve.
 _DUTIES: tuple[tuple[tuple[str, ...], Duty], ...] = (
     (("relief", "safety valve"), "relief"),
     (("check", "nonreturn", "non return"), "check"),
     (("control", "regulating", "reducing", "modulating", "solenoid", "safety cutoff"), "control"),
-    (("foot", "float", "release", "vacuum", "breather", "mixing"), "other"),
-    (
-        (
-            "ball", "gate", "globe", "butterfly", "plug", "diaphragm", "needle", "pinch", "isolating", "isolation",
-            "shut off", "shutoff", "stop", "cock", "block valve", "drain valve",
-        ),
-        "shuts off",
-    ),
-)  # fmt: skip
+)
+_SHUTS = frozenset({
+    "ball", "gate", "globe", "butterfly", "plug", "diaphragm", "needle", "pinch", "isolating", "isolation", "shutoff",
+    "stop", "cock", "stopcock", "block", "drain",
+})  # fmt: skip
+# Words that change nothing of what a valve does. One that is not among them may: a "pressure regulator globe valve", a
+# "thermostatic ball valve", a "non-shut-off valve", a "Y-port ball valve" are no shut-off valves.
+_NO_MATTER = frozenset({
+    "valve", "valves", "manual", "hand", "operated", "lever", "handwheel", "wheel", "gear", "geared", "chain",
+    "flanged", "welded", "threaded", "screwed", "socket", "weld", "soldered", "wafer", "lug", "lugged", "full",
+    "reduced", "bore", "port", "trunnion", "floating", "mounted", "rising", "non", "stem", "os", "y", "outside",
+    "screw", "bellows", "sealed", "cryogenic", "double", "single", "triple", "eccentric", "offset", "concentric",
+    "slide", "sluice", "knife", "wedge", "parallel", "flexible", "solid", "angle", "straight", "pattern", "inline",
+    "in", "line", "root", "vent", "sample", "main", "quarter", "turn", "two", "2", "way", "piece", "three", "body",
+    "split", "top", "entry", "soft", "metal", "seated", "seat", "high", "low", "pressure", "temperature", "steel",
+    "stainless", "brass", "bronze", "iron", "cast", "forged", "pvc", "water", "steam", "air", "gas", "oil", "fuel",
+    "gauge", "instrument", "and",
+})  # fmt: skip
+_SIZE = re.compile(r"(?:dn|pn|nps|class|cl|ansi|asme|din|en|iso|api|inch|in|mm|lb|lbs|rf)?\d*")
 # A valve whose kind is open shuts off where kinds that do are together as sure as a kind must be to be stated (ours).
 _SURE = 0.9
 _HAND_OPERATORS = frozenset({"lever", "handwheel"})
@@ -60,6 +71,8 @@ def duty_of(network: Network, place: str) -> Duty | None:
     node = network.places[place]
     if not isinstance(node, Unit) or node.unit_type != "valve":
         return None
+    if joins_more(network, place):
+        return "other"
     if node.kind is not None:
         return _of_kind(node.kind)
     sure = 0.0
@@ -68,6 +81,17 @@ def duty_of(network: Network, place: str) -> Duty | None:
             return "unknown"
         sure += confidence
     return "likely" if sure >= _SURE else "unknown"
+
+
+def joins_more(network: Network, place: str) -> bool:
+    """Whether more than two lines end at a valve, which leaves one of them open as a rule, whatever it is called; lines
+    that only lead to an instrument don't count.
+
+    Args:
+        network: of a finished graph.
+        place: id of a valve.
+    """
+    return len({arc.start_port or arc.end for arc in network.main_arcs(place)}) > 2
 
 
 def moves_by_itself(network: Network, place: str, n_ports: int) -> Literal["check", "relief"] | None:
@@ -189,9 +213,17 @@ def blocked_relief(network: Network, place: str) -> tuple[str, ...]:
 
 
 def _of_kind(kind: str) -> Duty:
-    words = " ".join(re.split(r"[\s_-]+", kind.casefold()))
-    found: Duty = next((duty for known, duty in _DUTIES if any(word in words for word in known)), "other")
-    return "other" if found == "shuts off" and has_more_ways(kind) else found
+    tokens = re.findall(r"[^\W_]+", unicodedata.normalize("NFKC", kind).casefold())
+    words = " ".join(tokens)
+    for known, duty in _DUTIES:
+        if any(word in words for word in known):
+            return duty
+    if has_more_ways(words) or not (_SHUTS.intersection(tokens) or "shut off" in words):
+        return "other"
+    if "non" in tokens and "rising" not in tokens:
+        return "other"
+    said = {"shut", "off", *_SHUTS, *_NO_MATTER}
+    return "shuts off" if all(token in said or _SIZE.fullmatch(token) for token in tokens) else "other"
 
 
 def _met(network: Network, place: str, wanted: str, but: int | None = None) -> tuple[str, int] | None:

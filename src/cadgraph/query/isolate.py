@@ -9,10 +9,18 @@ from cadgraph._io.text import tag_key
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Terminal
 from cadgraph.query.doubt import Doubt, few_ports, open_sides, unshown
-from cadgraph.query.duty import blocked_relief, duty_of, is_doubted, likely_kinds, suspect_of, worked_by_hand
+from cadgraph.query.duty import (
+    blocked_relief,
+    duty_of,
+    is_doubted,
+    joins_more,
+    likely_kinds,
+    suspect_of,
+    worked_by_hand,
+)
 from cadgraph.query.lines import find_lines
 from cadgraph.query.network import Network
-from cadgraph.query.section import Reached, Rules, Section, close_off, is_fed, is_source
+from cadgraph.query.section import Reached, Rules, Section, close_off, is_fed, is_source, lets_through
 
 __all__ = ["Closing", "Isolation", "Opening", "Passed", "find_isolation"]
 
@@ -24,6 +32,7 @@ _INTO_IT = "a relief valve that lets into this section what lies behind it: it o
 _EITHER_WAY = (
     "a relief valve, and nobody knows which way: it may let into this section what lies behind it, and opens by itself"
 )
+_THREE_LINES = "joins more than two lines, so that it leaves one open as a rule"
 _AS_RELIEF = (
     "taken for a relief valve and so for closed, yet it has a lever or wheel and no line behind it: were it a hand "
     "valve to the open, it would have to be closed, too"
@@ -249,8 +258,13 @@ def _passed(network: Network, section: Section, place: str, line_of: Mapping[int
         port=reached.port,
         distance=reached.distance,
         line=line_of.get(reached.arc.index),
-        why=_unknown(network, place) if duty == "unknown" else "not known to shut off",
+        why=_unknown(network, place) if duty == "unknown" else _unlike(network, place),
     )
+
+
+def _unlike(network: Network, place: str) -> str:
+    """Why a valve of a known kind isn't relied on."""
+    return _THREE_LINES if joins_more(network, place) else "not known to shut off"
 
 
 def _unknown(network: Network, place: str) -> str:
@@ -293,10 +307,10 @@ def _why_doubted(network: Network, section: Section, relief: str) -> str | None:
         return None
     # What flows through a valve is one: known on its far side, it is known on this one.
     entry = section.reached[relief].arc
-    flows = {entry.flow, *(arc.flow for arc in network.main_arcs(relief) if arc.index != entry.index)}
-    if "along" in flows:
+    flows = {entry.flow, *(arc.flow for arc in network.main_arcs(relief) if arc.index != entry.index)} - {"unknown"}
+    if flows == {"along"}:
         return None
-    return _INTO_IT if "against" in flows else _EITHER_WAY
+    return _INTO_IT if flows == {"against"} else _EITHER_WAY
 
 
 def _is_closed_relief(network: Network, section: Section, place: str) -> bool:
@@ -336,6 +350,9 @@ def _remarks(network: Network, section: Section, check_valves: bool) -> tuple[st
         for place in sorted(section.needed, key=lambda place: tag_key(network.name(place)))
         for relief in blocked_relief(network, place)
     ]
+    pumps = sorted((network.name(p) for p in section.left if network.unit_type(p) == "pump"), key=tag_key)
+    if pumps:
+        told.append(f"{', '.join(pumps)} shut in with it: stop what runs before a valve is closed")
     if not section.needed and not any(is_source(network, place) for place in section.left):
         told.append(
             "nothing was found that fills or empties this section: what it holds, and under what pressure, nobody knows"
@@ -358,7 +375,7 @@ def _remark(network: Network, section: Section, place: str, check_valves: bool) 
         return "need not be closed: nothing was found behind it that could flow" if needless else None
     if duty == "check" and not check_valves:
         return PASSED_OVER
-    if duty == "check" and arc.flow == "unknown":
+    if duty == "check" and not (network.stands_aside(place) or lets_through(network, arc)):
         return "is a check valve, but which way it lets through is not known"
     if duty == "control":
         return f"is a {network.what(place)}: not counted as isolating"

@@ -5,6 +5,7 @@ from __future__ import annotations
 import heapq
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
+from typing import Literal
 
 from cadgraph._io.text import tag_key
 from cadgraph.model.records import Terminal
@@ -12,7 +13,7 @@ from cadgraph.query.doubt import few_ports
 from cadgraph.query.duty import duty_of
 from cadgraph.query.network import Arc, Network
 
-__all__ = ["Reached", "Rules", "Section", "close_off", "is_fed", "is_source"]
+__all__ = ["Reached", "Rules", "Section", "close_off", "is_fed", "is_source", "lets_through"]
 
 
 @dataclass(frozen=True)
@@ -52,9 +53,7 @@ class Rules:
         """Whether an arc away from the unit enters a check valve that counts, against which nothing comes back."""
         if not self.check_valves or duty_of(self.network, arc.end) != "check" or self.network.stands_aside(arc.end):
             return False
-        # The flow through a valve is one: known on its far side, it is known on this one.
-        beyond = any(onward.flow == "along" for onward in self.network.arcs(arc.end) if onward.index != arc.index)
-        return arc.flow == "along" or (arc.flow == "unknown" and beyond)
+        return lets_through(self.network, arc) == "along"
 
 
 @dataclass(frozen=True)
@@ -205,11 +204,13 @@ def is_fed(network: Network, start: str, wall: str, region: Collection[str], wal
 
 
 def _smallest(network: Network, start: str, barriers: set[str], rules: Rules) -> set[str]:
-    """The smallest set of barriers between the unit and all sources that barriers can keep off."""
+    """The smallest set of barriers between the unit and all that may feed or drive it and that barriers can keep off:
+    also pumps and other equipment, as for the nearest valves.
+    """
     import networkx
 
     reached, _ = _flood(network, start, barriers, rules)
-    sources = [(p, "out") for p in network.places if p != start and is_source(network, p) and p not in reached]
+    sources = [(p, "out") for p in network.places if p != start and _drives(network, p) and p not in reached]
     # A valve of which only one side is known keeps off what may lie behind it.
     sources += [(p, "in") for p in network.places if p in barriers and few_ports(network, p) is not None]
     flow: networkx.DiGraph[tuple[str, str]] = networkx.DiGraph()
@@ -230,6 +231,25 @@ def _smallest(network: Network, start: str, barriers: set[str], rules: Rules) ->
     augment = networkx.algorithms.flow.shortest_augmenting_path
     _, (_, near) = networkx.minimum_cut(flow, origin, sink, flow_func=augment)
     return {place for place in barriers if (place, "out") in near and (place, "in") not in near}
+
+
+def _drives(network: Network, place: str) -> bool:
+    """Whether a node may feed, or make what is there flow."""
+    return is_source(network, place) or network.unit_type(place) not in (None, "valve", "gauge")
+
+
+def lets_through(network: Network, arc: Arc) -> Literal["along", "against"] | None:
+    """Which way a valve lets through that a connection leads to: the flow through it is one, known on either side; None
+    where nothing is known, or the two sides contradict each other.
+
+    Args:
+        network: of a finished graph.
+        arc: that leads to the valve.
+    """
+    flows = {arc.flow, *(onward.flow for onward in network.main_arcs(arc.end) if onward.index != arc.index)}
+    if {"along", "against"} <= flows:
+        return None
+    return "along" if "along" in flows else "against" if "against" in flows else None
 
 
 def is_source(network: Network, place: str) -> bool:

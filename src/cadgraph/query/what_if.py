@@ -12,7 +12,7 @@ from cadgraph.model.graph import SceneGraph
 from cadgraph.model.pipework import Follow
 from cadgraph.model.records import Terminal, Unit
 from cadgraph.query.doubt import Doubt, open_sides, unshown
-from cadgraph.query.duty import Duty, blocked_relief, duty_of, likely_kinds
+from cadgraph.query.duty import Duty, blocked_relief, duty_of, joins_more, likely_kinds
 from cadgraph.query.network import Arc, Network
 
 if TYPE_CHECKING:
@@ -33,6 +33,7 @@ _NOT_SHUT: Mapping[Duty, str] = {
 }
 _TURNS = "the ways left to it go against the flow as it was, which may turn in a loop or header"
 _ROUND = "a pump may still drive it round a loop that nothing feeds"
+_BACK = "a tank that it fed may run back to it, and out at an open end"
 _FILLED = "filled through them before; whether the ways left to it fill it, nobody knows"
 
 
@@ -72,7 +73,8 @@ class WhatIf:
         sources: tags of what feeds the network, by tag.
         cut_off: units and ends with no way left from any source but against a known flow, by tag; ``why`` names the
             closed valves that it depends on, as nobody knows whether these can be shut. What is left against the flow
-            along loops and headers, where it may turn, is unknown.
+            along loops and headers, where it may turn, is unknown, and so is an open end with what stands before it
+            that a tank may run back to.
         unknown: units and ends behind the valves that may be cut off or not, and tanks that may be refilled or not.
         still_fed: units and ends behind the valves to which a way of known direction leads from a source all the same.
         not_refilled: tanks that count as sources and that nothing else flows to any more; ``why`` likewise.
@@ -186,12 +188,13 @@ class _Closing:
         cut = before - after - set(self.closed)
         turned = self._where_flow_turns(cut, after)
         driven = (cut - turned) & self._driven_round(cut)
-        cut -= turned | driven
+        backed = self._where_tanks_run_back(cut - turned - driven)
+        cut -= turned | driven | backed
         doubted = [self.network.name(place) for place in self.unsure if place in self.barriers]
         depends = f"only if {' and '.join(doubted)} really shuts"
         cut_off = tuple(self._told(p, depends if p in after_for_sure else "") for p in self._by_tag(cut))
         run_dry = tuple(one for one in cut_off if self.network.unit_type(one.place) == "pump")
-        open_ones = (behind - cut) - surely_fed - set(self.sure_sources) - turned - driven
+        open_ones = (behind - cut) - surely_fed - set(self.sure_sources) - turned - driven - backed
         # Through a valve on the way to a blind end nothing is filled.
         filled = self._behind(lambda arc: self._follows(arc) and not self.network.is_dead(arc))
         not_refilled, perhaps_filled = self._not_refilled(filled, self.barriers)
@@ -205,6 +208,7 @@ class _Closing:
                 *(self._told(p, self._why_open(p in before, p in loosely_fed)) for p in self._by_tag(open_ones)),
                 *(self._told(p, _TURNS) for p in self._by_tag(turned)),
                 *(self._told(p, _ROUND) for p in self._by_tag(driven)),
+                *(self._told(p, _BACK) for p in self._by_tag(backed)),
                 *(self._told(p, _FILLED) for p in self._by_tag(perhaps_filled)),
             ),
             still_fed=tuple(self._told(p) for p in self._by_tag((behind & surely_fed) - set(self.sources))),
@@ -290,6 +294,22 @@ class _Closing:
                 found |= piece
         return found
 
+    def _where_tanks_run_back(self, cut: Collection[str]) -> set[str]:
+        """Of what is cut off, the pieces with an open end to which a tank may run back, against the flow as it was; not
+        through a pump or a check valve.
+        """
+        tanks = [place for place in self.network.places if self.network.unit_type(place) == "tank"]
+        reached = self._reach(tanks, self.barriers, self._may_run_back).intersection(cut)
+        found: set[str] = set()
+        while reached:
+            piece = self._reach((next(iter(reached)),), (), lambda arc: arc.end in reached)  # noqa: B023
+            reached -= piece
+            found |= piece if any(self._lets_out(place) for place in piece) else set()
+        return found
+
+    def _may_run_back(self, arc: Arc) -> bool:
+        return self._follows(arc) or not (self._one_way(arc.start) or self._one_way(arc.end))
+
     def _lets_out(self, place: str) -> bool:
         node = self.network.places[place]
         open_end = isinstance(node, Terminal) and node.kind != "blind"
@@ -345,6 +365,8 @@ class _Closing:
 
     def _why_unsure(self, place: str) -> str | None:
         """Why nobody can be sure that a valve can be shut."""
+        if joins_more(self.network, place):
+            return "joins more than two lines: such a valve leaves one open as a rule"
         why = _NOT_SHUT.get(duty_of(self.network, place) or "other")
         likely = likely_kinds(self.network, place)
         return f"{why} (likeliest: {likely})" if why and likely else why

@@ -11,9 +11,10 @@ from cadgraph.geometry.contact.pairs import find_contacts
 from cadgraph.geometry.kernels.triangle import triangle_distances
 from cadgraph.geometry.line.centreline import Centreline
 from cadgraph.model.parts import Joint, Parts
+from cadgraph.model.records import BY_USER, CUT
 from cadgraph.model.scene import Floats
 from cadgraph.stages.relate.attach import Attachments, Mount, Tapped, facings_of
-from cadgraph.stages.relate.edits import BY_USER, CUT, JointEdit, NetworkEdits, Unmet
+from cadgraph.stages.relate.edits import JointEdit, NetworkEdits, Unmet
 from cadgraph.stages.relate.joint import Tap, nearest_on
 from cadgraph.stages.relate.offer import Offer
 

@@ -12,10 +12,7 @@ from cadgraph.model.anchors import Anchor, Anchored
 from cadgraph.model.edits import Cut, Device, Direction, Edit, Flow, Join, Merge, Split, Tag
 from cadgraph.model.scene import Floats
 
-__all__ = ["BY_USER", "CUT", "FlowEdit", "JointEdit", "NameEdit", "NetworkEdits", "UnitEdit", "Unmet", "place_edits"]
-
-BY_USER, CUT = "joined by a user", "cut by a user"
-"""The reasons of joints that a user made, or cut."""
+__all__ = ["FlowEdit", "JointEdit", "NameEdit", "NetworkEdits", "UnitEdit", "Unmet", "place_edits"]
 
 _GONE = "{} of its {} parts are not there any more"
 _KNOWN = 0.5  # least share of an edit's parts that must be there

@@ -13,8 +13,8 @@ from scipy.spatial import cKDTree
 from cadgraph.geometry.line.centreline import Centreline
 from cadgraph.model.derived import kept_with
 from cadgraph.model.parts import Bools, Contacts
+from cadgraph.model.records import BY_USER, CUT
 from cadgraph.model.scene import Floats, Ints
-from cadgraph.stages.relate.edits import BY_USER, CUT
 from cadgraph.stages.relate.evidence import CURVES, FLAGS, add_up, add_up_one, score_of, tell
 from cadgraph.stages.relate.joint import Ends, Tap, find_tap
 from cadgraph.stages.relate.stated import REACH, Stated

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from cadgraph.model.parts import Joint, UnitParts
+from cadgraph.model.records import CUT
 from cadgraph.model.scene import Floats
 from cadgraph.stages.relate.attach import Attachments
-from cadgraph.stages.relate.edits import CUT
 from cadgraph.stages.relate.network import SIDE_SCORE, TWIN_SCORE, Drawing
 from cadgraph.stages.relate.offer import Offer
 from cadgraph.stages.relate.piping import Piping

@@ -9,8 +9,8 @@ import numpy as np
 from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.parts import Network, Parts, UnitParts, owners_of
 from cadgraph.model.ports import least_ports, port_word
+from cadgraph.model.records import CUT
 from cadgraph.model.scene import Floats
-from cadgraph.stages.relate.edits import CUT
 from cadgraph.stages.relate.piping import Piping
 
 __all__ = ["find_shortfalls"]
