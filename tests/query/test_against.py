@@ -3,7 +3,9 @@
 import pytest
 
 import shapes
+from cadgraph.model.graph import SceneGraph
 from cadgraph.model.labels import Evidence, FormerLabel, Guess
+from cadgraph.model.records import CUT, Joint
 from cadgraph.query import find_isolation
 from cadgraph.query.trace import trace
 from piping import FASTENER, GAUGE, PIPE, STEEL, TANK, VALVE, Plant, R, pipe, turned, valve_mesh
@@ -88,6 +90,18 @@ def test_the_end_of_another_line_inside_the_tank():
     (text,) = doubts(plant)
     assert text.startswith("open end terminal-")
     assert "of another line lies at part-" in text
+
+
+def test_what_a_user_says_does_not_join_casts_no_doubt():
+    graph = tank_line().pipe((0, 0, 1.5), (0, 0, 2.6)).graph()
+    (other,) = (part for part in graph.parts() if part.centroid[2] > 2)
+    tank = graph.unit("T-001").parts[0]
+    cut = Joint(
+        first=other.id, second=tank, kind="mount", point=(0, 0, 2), gap=0.0, score=0.0, made=False, reasons=(CUT,)
+    )
+    document = graph.document
+    told = SceneGraph(document.model_copy(update={"joints": (*document.joints, cut)}))
+    assert (len(doubts_of(graph)), len(doubts_of(told))) == (1, 0)
 
 
 def test_a_bolt_leads_nowhere():
