@@ -293,7 +293,7 @@ def test_a_folder_that_can_not_be_made_is_an_output_error(tmp_path):
 
 def test_without_the_library_the_extra_is_named(tmp_path, monkeypatch):
     monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
-    with pytest.raises(MissingExtra, match=r"cadgraph\[ifc\]"):
+    with pytest.raises(MissingExtra, match=r"'\.\[ifc\]'"):
         write_ifc(graphs.graph(), tmp_path / "plant.ifc", tmp_path / "out.ifc")
 
 

@@ -249,7 +249,7 @@ def test_without_the_library_draco_names_its_extra(tmp_path, monkeypatch, isolat
         monkeypatch.syspath_prepend(str(tmp_path / "hidden"))
     else:
         monkeypatch.setitem(sys.modules, "DracoPy", None)
-    with pytest.raises(MissingExtra, match=r"compressed with Draco.*cadgraph\[draco\]"):
+    with pytest.raises(MissingExtra, match=r"compressed with Draco.*'\.\[draco\]'"):
         load(path, LoadConfig(isolate=isolate))
 
 

@@ -99,7 +99,7 @@ def test_known_content_under_another_suffix_says_so(tmp_path):
 def test_missing_extra_is_named(tmp_path, monkeypatch):
     monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
     (tmp_path / "a.step").write_text("ISO-10303-21;")
-    with pytest.raises(MissingExtra, match=r"STEP.*cadgraph\[cad\]"):
+    with pytest.raises(MissingExtra, match=r"STEP.*'\.\[cad\]'"):
         load(tmp_path / "a.step")
 
 
