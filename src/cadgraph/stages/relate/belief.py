@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -35,12 +35,17 @@ class Beliefs:
     classes: tuple[tuple[str, str | None], ...]
     values: Floats
     open: Bools
+    _of_groups: dict[tuple[frozenset[str], frozenset[str | None]], Floats] = field(default_factory=dict, repr=False)
 
     def of_groups(self, groups: Collection[str], without: Collection[str | None] = ()) -> Floats:
         """``(n_parts,)`` how likely each part is of some groups, names that are left out not counted."""
-        columns = [k for k, (group, name) in enumerate(self.classes) if group in groups and name not in without]
-        total: Floats = self.values[:, columns].sum(axis=1)
-        return total
+        # Asked for every body of a plant, of the same few groups.
+        key = frozenset(groups), frozenset(without)
+        if key not in self._of_groups:
+            columns = [k for k, (group, name) in enumerate(self.classes) if group in groups and name not in without]
+            self._of_groups[key] = self.values[:, columns].sum(axis=1)
+            self._of_groups[key].setflags(write=False)
+        return self._of_groups[key]
 
     def of_name(self, name: str) -> Floats:
         """``(n_parts,)`` how likely each part is called so, in whatever group."""
