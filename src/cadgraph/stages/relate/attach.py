@@ -511,8 +511,6 @@ def flat_contacts(
         For each such pair the middle of the area [m] and its normal, from the first to the second.
     """
     wanted = set(pairs)
-    if not wanted:
-        return {}
     rows = [k for k, (a, b) in enumerate(contacts.plain_pairs) if (a, b) in wanted]
     if not rows:
         return {}

@@ -219,6 +219,8 @@ def _flanged_to(piping: Piping, body: Body, ends: Ends, row: int) -> Iterator[st
     given = piping.given
     owner = {part: group.unit_type for group in piping.groups for part in group.parts if part in body.near}
     pairs = [(min(a, b), max(a, b)) for a in body.parts for b in owner]
+    if not pairs:
+        return
     for (a, b), (middle, normal) in flat_contacts(given.parts, given.contacts, pairs, given.config.cluster.eps).items():
         if heads_for(ends, row, middle, normal):
             yield owner.get(a) or owner[b]
