@@ -110,6 +110,11 @@ class Contacts:
         return tuple((a, b) for a, b in self.pairs.tolist())
 
     @cached_property
+    def row_of(self) -> Mapping[tuple[int, int], int]:
+        """The row of each pair."""
+        return {pair: row for row, pair in enumerate(self.plain_pairs)}
+
+    @cached_property
     def neighbors(self) -> Mapping[int, list[int]]:
         """The parts that are near each part, ascending."""
         found: dict[int, list[int]] = {}

@@ -510,8 +510,7 @@ def flat_contacts(
     Returns:
         For each such pair the middle of the area [m] and its normal, from the first to the second.
     """
-    wanted = set(pairs)
-    rows = [k for k, (a, b) in enumerate(contacts.plain_pairs) if (a, b) in wanted]
+    rows = sorted(contacts.row_of[pair] for pair in set(pairs) if pair in contacts.row_of)
     if not rows:
         return {}
     index = np.array(rows, np.int64)

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
+from cadgraph.model.derived import store_of
 from cadgraph.model.labels import Label
 from cadgraph.model.parts import Bools
 from cadgraph.model.probabilities import Probabilities
@@ -35,17 +36,18 @@ class Beliefs:
     classes: tuple[tuple[str, str | None], ...]
     values: Floats
     open: Bools
-    _of_groups: dict[tuple[frozenset[str], frozenset[str | None]], Floats] = field(default_factory=dict, repr=False)
 
     def of_groups(self, groups: Collection[str], without: Collection[str | None] = ()) -> Floats:
         """``(n_parts,)`` how likely each part is of some groups, names that are left out not counted."""
         # Asked for every body of a plant, of the same few groups.
+        known = store_of(self, "of groups")
         key = frozenset(groups), frozenset(without)
-        if key not in self._of_groups:
+        if key not in known:
             columns = [k for k, (group, name) in enumerate(self.classes) if group in groups and name not in without]
-            self._of_groups[key] = self.values[:, columns].sum(axis=1)
-            self._of_groups[key].setflags(write=False)
-        return self._of_groups[key]
+            known[key] = self.values[:, columns].sum(axis=1)
+            known[key].setflags(write=False)
+        total: Floats = known[key]
+        return total
 
     def of_name(self, name: str) -> Floats:
         """``(n_parts,)`` how likely each part is called so, in whatever group."""

@@ -217,10 +217,8 @@ def _behind(piping: Piping, beliefs: Beliefs, body: Body, ends: Ends, row: int) 
 def _flanged_to(piping: Piping, body: Body, ends: Ends, row: int) -> Iterator[str]:
     """The types of the units that a body is flanged to on the axis of an end, on its other side."""
     given = piping.given
-    owner = {part: group.unit_type for group in piping.groups for part in group.parts if part in body.near}
+    owner = {part: piping.owner[part].unit_type for part in body.near if part in piping.owner}
     pairs = [(min(a, b), max(a, b)) for a in body.parts for b in owner]
-    if not pairs:
-        return
     for (a, b), (middle, normal) in flat_contacts(given.parts, given.contacts, pairs, given.config.cluster.eps).items():
         if heads_for(ends, row, middle, normal):
             yield owner.get(a) or owner[b]
@@ -267,7 +265,7 @@ def _terms(piping: Piping, beliefs: Beliefs, sight: _Sight) -> dict[str, list[Te
 
     def labelled(groups: Collection[str]) -> Term:
         said = float(beliefs.of_groups(groups, _BENT)[list(sight.body.parts)].mean())
-        return f"the labeler gives it {said:.0%}", float(LABELLED(np.log(max(said, LEAST))))
+        return f"the labeler gives it {said:.0%}", LABELLED.at_one(float(np.log(max(said, LEAST))))
 
     terms: dict[str, list[Term]] = {}
     if sight.body.unit_type is None:
@@ -279,7 +277,7 @@ def _terms(piping: Piping, beliefs: Beliefs, sight: _Sight) -> dict[str, list[Te
         if groups and (kind != "gauge" or _may_be_gauge(beliefs, sight)):
             terms[kind] = [
                 (_ENDS[sight.arrangement], effect),
-                (SIZE[kind].says.format(sight.pipes), float(SIZE[kind](sight.pipes))),
+                (SIZE[kind].says.format(sight.pipes), SIZE[kind].at_one(sight.pipes)),
                 labelled(groups),
                 *_further(piping, sight, kind),
             ]
