@@ -12,6 +12,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from cadgraph._io.manifest import LACKING
 from cadgraph._io.text import printable, shortened
 from cadgraph.errors import AskError
 
@@ -21,7 +22,7 @@ BUDGET = 1500
 """Most tokens of an answer, as :func:`tokens` counts them."""
 
 _BYTES_PER_TOKEN = 1.9  # measured: ids and coordinates take about two characters a token, unlike prose with four
-BEHIND = "mind\tcorrections were made that this graph lacks: build it again"
+BEHIND = f"mind\t{LACKING}"
 """The last line of an answer from a graph that its folder holds corrections for that it doesn't show."""
 _NOTE = f"{BEHIND}\npage 9999 of 9999; next: page=9999"  # as long as the last lines of a page can be
 _NEAR = 3  # names offered where one is not found

@@ -65,7 +65,7 @@ class Tool:
             CadGraphError: the arguments are wrong (:class:`~cadgraph.errors.AskError`), or there is no answer.
         """
         answer = self.run(plant, **self.checked(arguments))
-        if not plant.graph.lacks_corrections or "corrections were made" in answer.text:
+        if not plant.graph.lacks_corrections:
             return answer
         return Answer(f"{answer.text}\n{BEHIND}", {**answer.values, "behind_corrections": True})
 

@@ -49,7 +49,7 @@ _NO_MATTER = frozenset({
     "reduced", "bore", "port", "trunnion", "floating", "mounted", "rising", "non", "stem", "os", "y", "outside",
     "screw", "bellows", "sealed", "cryogenic", "double", "single", "triple", "eccentric", "offset", "concentric",
     "slide", "sluice", "knife", "wedge", "parallel", "flexible", "solid", "angle", "straight", "pattern", "inline",
-    "in", "line", "root", "vent", "sample", "main", "quarter", "turn", "two", "2", "way", "piece", "three", "body",
+    "in", "line", "root", "vent", "sample", "main", "quarter", "turn", "two", "way", "piece", "three", "body",
     "split", "top", "entry", "soft", "metal", "seated", "seat", "high", "low", "pressure", "temperature", "steel",
     "stainless", "brass", "bronze", "iron", "cast", "forged", "pvc", "water", "steam", "air", "gas", "oil", "fuel",
     "gauge", "instrument", "and",

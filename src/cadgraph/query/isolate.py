@@ -305,12 +305,8 @@ def _why_doubted(network: Network, section: Section, relief: str) -> str | None:
         return _AS_RELIEF
     if relief not in section.walls or not is_fed(network, section.start, relief, section.region, section.walls):
         return None
-    # What flows through a valve is one: known on its far side, it is known on this one.
-    entry = section.reached[relief].arc
-    flows = {entry.flow, *(arc.flow for arc in network.main_arcs(relief) if arc.index != entry.index)} - {"unknown"}
-    if flows == {"along"}:
-        return None
-    return _INTO_IT if flows == {"against"} else _EITHER_WAY
+    way = lets_through(network, section.reached[relief].arc)
+    return None if way == "along" else _INTO_IT if way == "against" else _EITHER_WAY
 
 
 def _is_closed_relief(network: Network, section: Section, place: str) -> bool:

@@ -137,13 +137,13 @@ def draw_pictures(
         first.
         None at all if the scene has nothing to draw.
     """
-    if not can_be_drawn(scene):
+    known = overview()
+    if known is None and not can_be_drawn(scene):
         return []
     parts = graph.parts()
     owner = {mesh: row for row, part in enumerate(parts) for mesh in part.meshes}
     row_of_mesh = np.array([owner.get(path, -1) for path in scene.paths], np.int64)
     ground = np.array([*(part.ground for part in parts), False], bool)[row_of_mesh]
-    known = overview()
     seen = known if known is not None and known.is_of(scene, ground, config) else look_over(scene, ground, config)
     camera, colors = seen.camera, group_colors(graph)
     ready = _Ready(
