@@ -66,8 +66,9 @@ class Labeling:
             sure: least confidence of a label that is sure: of all, or of each part.
         """
         least, least_sure = _each(threshold, len(answers)), _each(sure, len(answers))
+        marked = _Marked()
         labels = tuple(
-            _marked(a, limit_of_sure) if a is not None and a.confidence >= limit else None
+            marked[a, limit_of_sure] if a is not None and a.confidence >= limit else None
             for a, limit, limit_of_sure in zip(answers, least, least_sure, strict=True)
         )
         guesses = tuple(
@@ -89,9 +90,22 @@ def _each(value: float | Sequence[float], n_parts: int) -> tuple[float, ...]:
     return tuple(value) if isinstance(value, Sequence) else (value,) * n_parts
 
 
-def _marked(label: Label, sure: float) -> Label:
-    likely = label.confidence < sure
-    return label if label.likely == likely else label.model_copy(update={"likely": likely})
+class _Marked:
+    """Labels that say whether they are only likely; one object, as many parts as it may be the label of, stays one."""
+
+    def __init__(self) -> None:
+        self._known: dict[tuple[int, bool], tuple[Label, Label]] = {}
+
+    def __getitem__(self, said: tuple[Label, float]) -> Label:
+        label, sure = said
+        likely = label.confidence < sure
+        if label.likely == likely:
+            return label
+        # With the label itself, as another one may get the number of one that is gone.
+        key = id(label), likely
+        if key not in self._known:
+            self._known[key] = label, label.model_copy(update={"likely": likely})
+        return self._known[key][1]
 
 
 class Labeler(Protocol):

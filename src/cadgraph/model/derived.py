@@ -6,7 +6,7 @@ from collections.abc import Callable
 from functools import wraps
 from typing import Any, ParamSpec, TypeVar
 
-__all__ = ["kept_with", "store_of"]
+__all__ = ["forget", "kept_with", "store_of"]
 
 # In the value itself: what is kept often leads back to the value, and a table of it would keep both for ever.
 _KEPT = "_derived"
@@ -39,6 +39,11 @@ def kept_with(function: Callable[_P, _R]) -> Callable[_P, _R]:
         return result
 
     return once
+
+
+def forget(value: object, function: Callable[..., object]) -> None:
+    """Throws away what ``kept_with`` keeps of a function with a value; who asks again waits for it again."""
+    _kept(value).pop(function, None)
 
 
 def store_of(value: object, *name: object) -> dict[Any, Any]:

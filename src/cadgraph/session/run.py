@@ -141,7 +141,9 @@ def run(
             remarks = (*tell_replaced(there, graph), *tell_lost_corrections(session.lost, len(session.corrections)))
             del session
             if scene.n_meshes > _MANY:
-                # What the stages have found and nobody holds any more leads back to itself in many places.
+                # What the stages have found and nobody holds any more leads back to itself in many places; what they
+                # kept with the scene, the lines of its parts above all, no file needs.
+                scene = replace(scene)
                 gc.collect()
             outcome = write_results(scene, graph, source, target, drawn, clock, overview)
         return replace(outcome, remarks=(*remarks, *(crew.remarks if crew is not None else ())))

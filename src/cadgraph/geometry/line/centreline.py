@@ -110,6 +110,22 @@ class Centreline:
         return min(branch.narrowest for branch in self.branches)
 
     @cached_property
+    def branch_of_end(self) -> tuple[int, ...]:
+        """The number of the branch that each free end is of."""
+        return tuple(end.branch for end in self.ends)
+
+    @property
+    def n_ends(self) -> int:
+        """The number of free ends."""
+        return len(self.table_of_ends)
+
+    @property
+    def radii(self) -> list[float]:
+        """The outer radius of each free end [m]."""
+        radii: list[float] = self.table_of_ends[:, 6].tolist()
+        return radii
+
+    @cached_property
     def table_of_ends(self) -> Floats:
         """``(n_ends, 9)`` point, direction, radius, bore of each end, and the length of its branch [m]."""
         rows = [(*e.point, *e.direction, e.radius, e.bore, self.branches[e.branch].length) for e in self.ends]
@@ -122,15 +138,37 @@ class Centreline:
             turn: ``(3, 3)`` rotation.
             shift: ``(3,)`` translation after it [m].
         """
-        return Centreline(
-            tuple(one.placed(turn, shift) for one in self.branches),
-            tuple(
-                End(turn @ one.point + shift, turn @ one.direction, one.radius, one.bore, one.branch)
-                for one in self.ends
-            ),
-            tuple(Junction(turn @ one.point + shift, one.branches) for one in self.junctions),
-            self.share,
+        there = object.__new__(_Placed)
+        vars(there).update(
+            branches=tuple(one.placed(turn, shift) for one in self.branches),
+            junctions=tuple(Junction(turn @ one.point + shift, one.branches) for one in self.junctions),
+            share=self.share,
+            table_of_ends=_moved(self.table_of_ends, turn, shift),
+            # A place changes none of these.
+            length=self.length,
+            narrowest=self.narrowest,
+            branch_of_end=self.branch_of_end,
         )
+        return there
+
+
+class _Placed(Centreline):
+    """A line in another place. A plant has as many as pipes: objects of their ends are made where somebody asks."""
+
+    @cached_property
+    def ends(self) -> tuple[End, ...]:
+        """The free ends, by branch."""
+        rows = zip(self.table_of_ends, self.branch_of_end, strict=True)
+        return tuple(End(row[:3], row[3:6], float(row[6]), float(row[7]), branch) for row, branch in rows)
+
+
+def _moved(ends: Floats, turn: Floats, shift: Floats) -> Floats:
+    """A table of ends with their points and directions elsewhere."""
+    moved = ends.copy()
+    # One product for each, so that an end lies where it would by itself to the last bit.
+    moved[:, :3] = (turn @ ends[:, :3, None])[..., 0] + shift
+    moved[:, 3:6] = (turn @ ends[:, 3:6, None])[..., 0]
+    return moved
 
 
 @dataclass(frozen=True)

@@ -88,8 +88,11 @@ def _near_pairs(points: Floats, reach: Floats) -> Ints:
     if len(points) < 2:
         return np.zeros((0, 2), np.int64)
     tree = cKDTree(points)
+    # Few have anybody near: who does is counted by all processors, and only theirs become lists.
+    crowded = np.flatnonzero(tree.query_ball_point(points, reach, p=np.inf, return_length=True, workers=-1) > 1)
     found: list[tuple[int, int]] = []
-    for i, neighbours in enumerate(tree.query_ball_point(points, reach, p=np.inf)):
+    around = tree.query_ball_point(points[crowded], reach[crowded], p=np.inf)
+    for i, neighbours in zip(crowded.tolist(), around, strict=True):
         found += [(min(i, j), max(i, j)) for j in neighbours if j != i]
     pairs = np.unique(np.array(found, np.int64).reshape(-1, 2), axis=0)
     gap = np.abs(points[pairs[:, 0]] - points[pairs[:, 1]]).max(axis=1, initial=0.0)

@@ -13,6 +13,7 @@ from cadgraph.labelers.embedded.features import Observation, observe
 from cadgraph.labelers.embedded.model import STRANGE, Model, default_model
 from cadgraph.labelers.embedded.wording import describe_company, describe_form
 from cadgraph.labelers.likeliest import likeliest_of_all
+from cadgraph.model.derived import forget
 from cadgraph.model.labels import GeometryEvidence, Label
 from cadgraph.model.parts import Contacts, Parts
 from cadgraph.model.scene import Floats, Ints
@@ -22,6 +23,7 @@ __all__ = ["EmbeddedLabeler", "Verdicts", "judge", "spread"]
 
 _SHARED = 0.5  # greatest weight of what all repeats of a shape say together
 _ROWS = 4_096  # parts at once: arrays of all would take memory by their number
+_MANY = 10_000  # parts from which on what was seen of them is not kept
 
 
 @dataclass(frozen=True)
@@ -77,6 +79,9 @@ class EmbeddedLabeler:
         least = self._least(parts.n_parts, seen)
         with collector_paused():
             answers = self._answers(parts, seen, verdicts, least)
+            if parts.n_parts > _MANY:
+                # Only who corrects labels by hand looks at them again.
+                forget(parts, observe)
             return Labeling.judge(answers, least.tolist(), probabilities, unlearnt, self.sure)
 
     def _least(self, n_parts: int, seen: Observation) -> Floats:
@@ -97,8 +102,9 @@ class EmbeddedLabeler:
         if not len(verdicts.classes):
             return [None] * parts.n_parts
         forms = [describe_form(facts) for facts in seen.facts]
-        # Many parts have the same evidence: one object stands for all that are equal.
+        # Many parts are alike: one object stands for all that are equal.
         known: dict[str, GeometryEvidence] = {}
+        given: dict[tuple[object, ...], Label] = {}
         answers: list[Label | None] = []
         all_found = likeliest_of_all(
             verdicts.classes, verdicts.names, verdicts.group_names, verdicts.groups, least.tolist()
@@ -109,8 +115,12 @@ class EmbeddedLabeler:
                 continue
             near = [said[j] for j in around.there[starts[part] : starts[part + 1]].tolist()]
             why = f"{forms[shape]}; {describe_company(near, alike[part])}"
-            evidence = known.get(why) or known.setdefault(why, GeometryEvidence(why=why))
-            answers.append(Label(found.group, found.name, found.confidence, "geometry", evidence, found.guesses))
+            # Equal guesses are one object, which is sooner told than that their values are equal.
+            key = *found[:-1], why, *map(id, found.guesses)
+            if key not in given:
+                evidence = known.get(why) or known.setdefault(why, GeometryEvidence(why=why))
+                given[key] = Label(found.group, found.name, found.confidence, "geometry", evidence, found.guesses)
+            answers.append(given[key])
         return answers
 
 

@@ -21,6 +21,7 @@ LEAST = 1e-3
 
 # Who can't be overruled by what lies around a part: the user, and the file where it is asked.
 _KNOWN = frozenset({"human", "repeat", "catalog", "author", "file"})
+_ROWS = 4_096  # parts at once
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,7 +101,11 @@ def _values_of(
     values = np.zeros((n_parts, len(column)))
     if probabilities is not None:
         known = [k for k, said in enumerate(probabilities.classes) if said in column]
-        values[:, [column[probabilities.classes[k]] for k in known]] = probabilities.values[:, known]
+        columns = [column[probabilities.classes[k]] for k in known]
+        # Some rows at once, which stay in the processor's cache.
+        for first in range(0, n_parts, _ROWS):
+            some = slice(first, first + _ROWS)
+            values[some, columns] = probabilities.values[some, known]
     return values
 
 

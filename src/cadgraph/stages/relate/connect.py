@@ -212,7 +212,7 @@ def _cover(piping: Piping, carried: Collection[int], row: int) -> Cover | None:
 
 def _is_cover(line: Centreline, name: str | None) -> bool:
     """Whether a part is a lid without being called one of a line's: a disc without a hole."""
-    hollow = any(np.isfinite(end.bore) for end in line.ends)
+    hollow = bool(np.isfinite(line.table_of_ends[:, 7]).any())
     return is_disc(line) and not hollow and name not in _ON_LINES
 
 

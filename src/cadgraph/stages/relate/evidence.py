@@ -11,6 +11,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
+from sys import intern
 from typing import TypeAlias
 
 import numpy as np
@@ -159,4 +160,5 @@ def tell(measured: Mapping[str, float], flags: Sequence[str] = (), said: str = "
 def tell_terms(terms: Sequence[Term]) -> tuple[str, ...]:
     """Terms in words, the weightiest first; each with its log-odds, without those that weigh nothing."""
     ordered = sorted((term for term in terms if abs(term[1]) >= _NOTHING), key=lambda term: (-abs(term[1]), term[0]))
-    return tuple(f"{words} ({odds:+.1f})" for words, odds in ordered)
+    # A plant's joints are alike: the same words stand at many thousands.
+    return tuple(intern(f"{words} ({odds:+.1f})") for words, odds in ordered)

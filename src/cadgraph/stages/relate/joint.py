@@ -89,7 +89,7 @@ class Tap:
 def gather_ends(lines: Mapping[int, Centreline]) -> Ends:
     """The free ends of lines, by part."""
     ordered = sorted(lines.items())
-    counts = [len(line.ends) for _, line in ordered]
+    counts = [len(line.table_of_ends) for _, line in ordered]
     table = np.concatenate([np.zeros((0, 9)), *(line.table_of_ends for _, line in ordered)])
     of_part: dict[int, tuple[int, ...]] = {}
     row = 0

@@ -25,27 +25,28 @@ def is_plain_tube(line: Centreline) -> bool:
 
 def is_steady(line: Centreline) -> bool:
     """Whether a line is one run of steady radius with two ends, however short."""
-    if len(line.branches) != 1 or len(line.ends) != 2:
+    if len(line.branches) != 1 or line.n_ends != 2:
         return False
     radius = line.branches[0].radius
-    first, last = sorted((float(line.ends[0].radius), float(line.ends[1].radius)))
+    first, last = sorted(line.radii)
     even = radius.max() <= (1 + _UNEVEN) * radius.min() and last <= (1 + _STEADY) * first
     return bool(even and line.share > 0.9)
 
 
 def is_fitting(line: Centreline) -> bool:
     """Whether a line bends or branches between ends that are all open to others, along all of its surface."""
-    return line.share > 0.9 and (len(line.ends) > 2 or (len(line.ends) == 2 and not is_straight(line)))
+    return line.share > 0.9 and (line.n_ends > 2 or (line.n_ends == 2 and not is_straight(line)))
 
 
 def is_neck(line: Centreline) -> bool:
     """Whether a line is that of a short straight piece of two widths: a flange with its welding neck."""
     if not (is_disc(line) and is_straight(line)):
         return False
-    narrow, wide = sorted((float(line.ends[0].radius), float(line.ends[1].radius)))
+    narrow, wide = sorted(line.radii)
     return narrow <= _NARROW * wide
 
 
 def is_straight(line: Centreline) -> bool:
     """Whether a line has two ends that look opposite ways."""
-    return len(line.ends) == 2 and float(line.ends[0].direction @ line.ends[1].direction) < _STRAIGHT
+    outward = line.table_of_ends[:, 3:6]
+    return line.n_ends == 2 and float(outward[0] @ outward[1]) < _STRAIGHT

@@ -182,10 +182,10 @@ def _draw_line(draft: _Draft, part: int, sure: float) -> None:
     line = draft.lines[part]
     tips: dict[tuple[int, bool], int] = {}
     for row in draft.found.ends.of_part.get(part, ()):
-        end = line.ends[int(draft.found.ends.index[row])]
-        points = line.branches[end.branch].points
-        at_start = length_of(points[0] - end.point) <= length_of(points[-1] - end.point)
-        tips[end.branch, at_start] = draft.node_of_end[row]
+        number, tip = line.branch_of_end[int(draft.found.ends.index[row])], draft.found.ends.point[row]
+        points = line.branches[number].points
+        at_start = length_of(points[0] - tip) <= length_of(points[-1] - tip)
+        tips[number, at_start] = draft.node_of_end[row]
     for junction in line.junctions:
         node = draft.new()
         for number in set(junction.branches):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import compress
 from typing import Any, Literal
 
 import numpy as np
@@ -268,7 +269,13 @@ def _flags(
         ahead: what lies on the axis of each end.
     """
     i, j = pairs[:, 0], pairs[:, 1]
-    parts = [(int(a), int(b)) for a, b in np.sort(ends.part[pairs], axis=1).tolist()]
+    parts = np.sort(ends.part[pairs], axis=1)
+
+    def among(known: Collection[tuple[int, int]], possible: Bools) -> Bools:
+        found = np.zeros(len(pairs), np.bool_)
+        found[possible] = [(a, b) in known for a, b in parts[possible].tolist()]
+        return found
+
     hidden = np.zeros(len(pairs), np.bool_)
     for k in np.flatnonzero(straight & (gap > 2 * _BEFORE)).tolist():
         own = (int(ends.part[i[k]]), int(ends.part[j[k]]))
@@ -276,9 +283,9 @@ def _flags(
     return {
         "hidden": hidden,
         "disc": _is_disc(ends, i) | _is_disc(ends, j),
-        "blocked": np.array([pair in around.blocked for pair in parts], np.bool_) & (gap > min(_BESIDE, around.bridge)),
+        "blocked": among(around.blocked, gap > min(_BESIDE, around.bridge)),
         "over": gap > around.bridge + 1e-9,
-        "bolted": np.array([pair in around.bolted for pair in parts], np.bool_) & (gap > _OVERLAP),
+        "bolted": among(around.bolted, gap > _OVERLAP),
     }
 
 
@@ -292,14 +299,11 @@ def _faces(
 ) -> list[Offer]:
     """The offers of pairs of ends that face each other."""
     rows = zip(pairs.tolist(), gap.tolist(), odds.tolist(), strict=True)
+    values, holding = zip(*measured.values(), strict=True), zip(*flags.values(), strict=True)
     return [
-        Offer(
-            "face", row, other, wide, sure,
-            {name: values[k] for name, values in measured.items()},
-            tuple(name for name, holds in flags.items() if holds[k]),
-        )
-        for k, ((row, other), wide, sure) in enumerate(rows)
-    ]  # fmt: skip
+        Offer("face", row, other, wide, sure, dict(zip(measured, known, strict=True)), tuple(compress(flags, holds)))
+        for ((row, other), wide, sure), known, holds in zip(rows, values, holding, strict=True)
+    ]
 
 
 def _corner(pairs: Ints, k: int, measured: Mapping[str, Floats]) -> Offer:
@@ -348,26 +352,41 @@ def near_ends(ends: Ends, around: Surroundings) -> Ints:
     """Pairs of ends of parts that are near each other, or that are near each other themselves."""
     if not len(ends.part):
         return np.zeros((0, 2), np.int64)
-    found = {
-        (p, q) if p < q else (q, p)
-        for a, b in around.contacts.plain_pairs
-        if a in ends.of_part and b in ends.of_part
-        for p in ends.of_part[a]
-        for q in ends.of_part[b]
-    }
     tree = cKDTree(ends.point)
     near = tree.query_pairs(_REACH * around.bridge, output_type="ndarray")
-    found.update((p, q) for p, q in near.tolist() if ends.part[p] != ends.part[q])
-    found |= _near_stated(ends, tree, around.stated)
-    return np.array(sorted(found), np.int64).reshape(-1, 2)
+    apart = near[ends.part[near[:, 0]] != ends.part[near[:, 1]]]
+    return _distinct([_ends_of_pairs(ends, around.contacts.pairs), apart, _near_stated(ends, tree, around.stated)])
 
 
-def _near_stated(ends: Ends, tree: cKDTree, stated: Stated) -> set[tuple[int, int]]:
+def _ends_of_pairs(ends: Ends, pairs: Ints) -> Ints:
+    """Each end of one part with each of the other's, for pairs of parts."""
+    # Rows of ends are in the order of their parts.
+    first, last = np.searchsorted(ends.part, pairs), np.searchsorted(ends.part, pairs, side="right")
+    count = last - first
+    n_pairs = count.prod(axis=1)
+    which = np.repeat(np.arange(len(pairs)), n_pairs)
+    number = np.arange(len(which)) - np.repeat(np.cumsum(n_pairs) - n_pairs, n_pairs)
+    p, q = number // np.maximum(count[which, 1], 1), number % np.maximum(count[which, 1], 1)
+    return np.stack([first[which, 0] + p, first[which, 1] + q], axis=1)
+
+
+def _distinct(pairs: Sequence[Ints]) -> Ints:
+    """Pairs of rows, the lesser first, each once and in their order."""
+    both = np.concatenate(pairs)
+    if not len(both):
+        return both
+    n_rows = int(both.max()) + 1
+    first, second = both.T
+    keys = np.sort(np.minimum(first, second) * n_rows + np.maximum(first, second))
+    # numpy's own way to single values out takes fifty times as long as sorting them.
+    keys = keys[np.concatenate([[True], keys[1:] != keys[:-1]])]
+    return np.stack(np.divmod(keys, n_rows), axis=1)
+
+
+def _near_stated(ends: Ends, tree: cKDTree, stated: Stated) -> Ints:
     """Pairs of ends that a link of the file reaches."""
-    if not stated:
-        return set()
-    pairs = tree.query_pairs(REACH, output_type="ndarray")
-    return {(p, q) for p, q in pairs.tolist() if stated.by(int(ends.part[p]), int(ends.part[q])) is not None}
+    pairs = tree.query_pairs(REACH, output_type="ndarray") if stated else np.zeros((0, 2), np.int64)
+    return pairs[_are_stated(ends, pairs, stated)]
 
 
 def ends_about(ends: Ends, around: Surroundings) -> Ints:
@@ -375,11 +394,11 @@ def ends_about(ends: Ends, around: Surroundings) -> Ints:
     near = near_ends(ends, around)
     if not around.stated or not len(near):
         return near
-    known = {(p, q) for p, q in near.tolist()}
-    joined = {row for pair in near[_are_stated(ends, near, around.stated)].tolist() for row in pair}
-    wider = cKDTree(ends.point).query_pairs(REACH, output_type="ndarray").tolist()
-    known.update((p, q) for p, q in wider if ends.part[p] != ends.part[q] and (p in joined or q in joined))
-    return np.array(sorted(known), np.int64).reshape(-1, 2)
+    joined = np.zeros(len(ends.part), np.bool_)
+    joined[near[_are_stated(ends, near, around.stated)]] = True
+    wider = cKDTree(ends.point).query_pairs(REACH, output_type="ndarray")
+    apart = ends.part[wider[:, 0]] != ends.part[wider[:, 1]]
+    return _distinct([near, wider[apart & joined[wider].any(axis=1)]])
 
 
 def _corners(ends: Ends, i: Ints, j: Ints, cosine: Floats, bridge: float) -> Bools:

@@ -346,7 +346,8 @@ def _is_jacket(line: Centreline, around: Sequence[Centreline]) -> bool:
 
 def _beyond(line: Centreline, far: float) -> Floats:
     """``(n_ends, 3)`` places beyond the ends of a line [m]."""
-    return np.array([end.point + far * end.direction for end in line.ends]).reshape(-1, 3)
+    ends = line.table_of_ends
+    return ends[:, :3] + far * ends[:, 3:6]
 
 
 def _along(branch: Branch) -> Floats:
