@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import gc
 import json
 import time
 from collections.abc import Callable, Sequence
@@ -141,10 +140,8 @@ def run(
             remarks = (*tell_replaced(there, graph), *tell_lost_corrections(session.lost, len(session.corrections)))
             del session
             if scene.n_meshes > _MANY:
-                # What the stages have found and nobody holds any more leads back to itself in many places; what they
-                # kept with the scene, the lines of its parts above all, no file needs.
+                # What the stages kept with it, the lines of its parts above all, no file needs.
                 scene = replace(scene)
-                gc.collect()
             outcome = write_results(scene, graph, source, target, drawn, clock, overview)
         return replace(outcome, remarks=(*remarks, *(crew.remarks if crew is not None else ())))
 

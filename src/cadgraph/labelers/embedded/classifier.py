@@ -138,9 +138,15 @@ class Classifier:
 
 def _by_rows(n: int, act: Callable[[slice], Floats]) -> Floats:
     """What some rows at a time come to, one below the other: all at once would take memory by the number of parts."""
+    first = act(slice(0, min(_ROWS, n)))
     if n <= _ROWS:
-        return act(slice(0, n))
-    return np.concatenate([act(slice(start, min(start + _ROWS, n))) for start in range(0, n, _ROWS)])
+        return first
+    rows = np.empty((n, *first.shape[1:]))
+    rows[:_ROWS] = first
+    for start in range(_ROWS, n, _ROWS):
+        some = slice(start, min(start + _ROWS, n))
+        rows[some] = act(some)
+    return rows
 
 
 def aggregate(said: Floats, here: Ints, n: int) -> Floats:

@@ -51,12 +51,13 @@ def part_records(results: Results) -> list[Part]:
     said = [(label, _possible(results, part)) for part, label in enumerate(results.labels)]
     ids = ids_of_parts(results.parts)
     new = [part for part in range(len(said)) if part not in kept or kept[part][0] != said[part]]
-    round_guesses = _RoundGuesses()
+    round_guesses, round_labels = _RoundGuesses(), _RoundLabels()
     for start in range(0, len(new), _AT_ONCE):
         some = new[start : start + _AT_ONCE]
         for part, shape in zip(some, _points_of(results, some), strict=True):
             label, guesses = said[part]
-            kept[part] = said[part], _part_of(results, part, ids, shape, label, round_guesses[tuple(guesses)])
+            known = round_labels.of(label), round_guesses[tuple(guesses)]
+            kept[part] = said[part], _part_of(results, part, ids, shape, *known)
     return [kept[part][1] for part in range(results.parts.n_parts)]
 
 
@@ -83,7 +84,7 @@ def _part_of(
     return Part(
         id=ids[part],
         meshes=tuple(results.scene.paths[mesh] for mesh in parts.meshes[part]),
-        label=_label(label),
+        label=label,
         guesses=guesses,
         centroid=centroid,
         aabb=(low, high),
@@ -166,6 +167,23 @@ def findings(results: Results) -> list[Diagnostic]:
     return found
 
 
+class _RoundLabels:
+    """Labels as the graph holds them: rounded, without what else a part may be; what is one object stays one."""
+
+    def __init__(self) -> None:
+        self._known: dict[int, Label] = {}
+
+    def of(self, label: Label | None) -> Label | None:
+        """The label; it lives at least as long as this."""
+        if label is None:
+            return None
+        found = self._known.get(id(label))
+        if found is None:
+            update = {"confidence": round(label.confidence, 6), "guesses": ()}
+            found = self._known[id(label)] = label.model_copy(update=update)
+        return found
+
+
 class _RoundGuesses(dict[tuple[Guess, ...], tuple[Guess, ...]]):
     """What parts may be, rounded; parts alike, which are many, share it."""
 
@@ -183,9 +201,3 @@ def _possible(results: Results, part: int) -> Sequence[Guess]:
     if label is None:
         return results.guesses[part]
     return label.guesses if len(label.guesses) > 1 else ()
-
-
-def _label(label: Label | None) -> Label | None:
-    if label is None:
-        return None
-    return label.model_copy(update={"confidence": round(label.confidence, 6), "guesses": ()})
