@@ -116,7 +116,8 @@ def add_up(kind: str, measured: Mapping[str, Floats], flags: Mapping[str, Floats
         measured: quantities of ``CURVES``, ``(n,)`` each; NaN where one does not apply.
         flags: of ``FLAGS``, ``(n,)`` each, 1 where it holds.
     """
-    total: Floats = np.sum([CURVES[name](value) for name, value in measured.items()], axis=0) + BASE[kind]
+    first, *others = (CURVES[name](value) for name, value in measured.items())
+    total = sum(others, first) + BASE[kind]
     for name, holds in (flags or {}).items():
         total = total + FLAGS[name][0] * holds
     return np.asarray(total, np.float64)

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import compress
 from typing import Any, Literal
 
 import numpy as np
-import numpy.typing as npt
 from scipy.spatial import cKDTree
 
 from cadgraph.geometry.line.centreline import Centreline
@@ -59,6 +58,29 @@ _OF_GAP = ("gap", "wide")  # what is measured of a gap
 _THINKABLE = -4.0  # log-odds below which nobody would ask why a joint was not made
 
 Kind = Literal["face", "corner", "mount", "tap", "sleeve"]
+
+
+class Measured(Mapping[str, float]):
+    """The quantities of one of many joints: a row of columns, as few are ever asked for theirs.
+
+    Args:
+        columns: ``(n,)`` each quantity of all.
+        row: the joint.
+    """
+
+    __slots__ = ("_columns", "_row")
+
+    def __init__(self, columns: Mapping[str, Floats], row: int) -> None:
+        self._columns, self._row = columns, row
+
+    def __getitem__(self, name: str) -> float:
+        return float(self._columns[name][self._row])
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._columns)
+
+    def __len__(self) -> int:
+        return len(self._columns)
 
 
 @dataclass(frozen=True)
@@ -150,13 +172,15 @@ class EndsAhead:
     """
 
     def __init__(self, ends: Ends, pairs: Ints) -> None:
+        cosine = np.einsum("ij,ij->i", ends.direction[pairs[:, 0]], ends.direction[pairs[:, 1]])
+        along = np.abs(cosine) >= -_OPPOSED
+        pairs, cosine = pairs[along], np.tile(cosine[along], 2)
         row, other = np.concatenate([pairs, pairs[:, ::-1]]).T
         between = ends.point[other] - ends.point[row]
         distance = np.einsum("ij,ij->i", between, ends.direction[row])
         off = np.linalg.norm(between - distance[:, None] * ends.direction[row], axis=1)
-        cosine = np.einsum("ij,ij->i", ends.direction[row], ends.direction[other])
         lesser = np.minimum(ends.radius[row], ends.radius[other])
-        near = np.flatnonzero((np.abs(cosine) >= -_OPPOSED) & (off <= _ON_AXIS * lesser) & (distance > -_BEFORE))
+        near = np.flatnonzero((off <= _ON_AXIS * lesser) & (distance > -_BEFORE))
         near = near[np.argsort(row[near], kind="stable")]
         self._first = np.searchsorted(row[near], np.arange(len(ends.part) + 1))
         self._row, self._part = other[near], ends.part[other[near]]
@@ -168,13 +192,31 @@ class EndsAhead:
         columns = self._row[cut], self._part[cut], self._distance[cut], self._alike[cut]
         return [Ahead(*one) for one in zip(*(column.tolist() for column in columns), strict=True)]
 
+    def hide(self, pairs: Ints, gap: Floats, own: Ints) -> Bools:
+        """``(n,)`` what ``is_hidden`` says of either end of each pair.
+
+        Args:
+            pairs: ``(n, 2)`` rows of ends.
+            gap: ``(n,)`` between the two [m].
+            own: ``(n, 2)`` their parts.
+        """
+        row = pairs.ravel()
+        number = self._first[row + 1] - self._first[row]
+        pair = np.repeat(np.arange(len(row)), number) // 2
+        one = np.arange(len(pair)) + np.repeat(self._first[row] - (np.cumsum(number) - number), number)
+        other = (self._part[one][:, None] != own[pair]).all(axis=1)
+        within = _lies_within(gap[pair], self._distance[one], self._alike[one])
+        return np.bincount(pair[other & within], minlength=len(pairs)) > 0
+
 
 def is_hidden(ahead: Sequence[Ahead], gap: float, own: Collection[int]) -> bool:
     """Whether the end of another part lies in a gap: one before this end, or before what it would join."""
-    return any(
-        one.part not in own and (_BEFORE < one.distance <= gap + _BEFORE if one.alike else one.distance < gap - _BEFORE)
-        for one in ahead
-    )
+    return any(one.part not in own and _lies_within(gap, one.distance, one.alike) for one in ahead)
+
+
+def _lies_within(gap: Any, distance: Any, alike: Any) -> Any:
+    """Whether an end at a distance on the axis lies in a gap; of numbers or of arrays."""
+    return (alike & (distance > _BEFORE) & (distance <= gap + _BEFORE)) | ((alike ^ True) & (distance < gap - _BEFORE))
 
 
 def offer_faces(ends: Ends, around: Surroundings, ahead: EndsAhead | None = None) -> list[Offer]:
@@ -200,7 +242,9 @@ def offer_faces(ends: Ends, around: Surroundings, ahead: EndsAhead | None = None
     flags["habit"] = _habitual(gap, straight & (odds > 1.0))
     odds = odds + flags["habit"] * FLAGS["habit"][0]
     thinkable = straight & ((odds > _THINKABLE) | _are_stated(ends, pairs, around.stated))
-    found = _faces(pairs[thinkable], gap[thinkable], odds[thinkable], _of(measured, thinkable), _of(flags, thinkable))
+    quantities = {name: values[thinkable] for name, values in measured.items()}
+    holding = {name: holds[thinkable] for name, holds in flags.items()}
+    found = _faces(pairs[thinkable], gap[thinkable], odds[thinkable], quantities, holding)
     corners = _corners(ends, i, j, cosine, around.bridge) & ~straight
     found += [_corner(pairs, k, measured) for k in np.flatnonzero(corners).tolist()]
     return _witnessed(ends, found, around.stated) if around.stated else found
@@ -276,10 +320,8 @@ def _flags(
         found[possible] = [(a, b) in known for a, b in parts[possible].tolist()]
         return found
 
-    hidden = np.zeros(len(pairs), np.bool_)
-    for k in np.flatnonzero(straight & (gap > 2 * _BEFORE)).tolist():
-        own = (int(ends.part[i[k]]), int(ends.part[j[k]]))
-        hidden[k] = any(is_hidden(ahead.of(int(row)), float(gap[k]), own) for row in pairs[k])
+    hidden = straight & (gap > 2 * _BEFORE)
+    hidden[hidden] = ahead.hide(pairs[hidden], gap[hidden], parts[hidden])
     return {
         "hidden": hidden,
         "disc": _is_disc(ends, i) | _is_disc(ends, j),
@@ -289,20 +331,15 @@ def _flags(
     }
 
 
-def _of(columns: Mapping[str, npt.NDArray[Any]], rows: Bools) -> dict[str, list[Any]]:
-    """Some rows of each column, as plain values."""
-    return {name: values[rows].tolist() for name, values in columns.items()}
-
-
 def _faces(
-    pairs: Ints, gap: Floats, odds: Floats, measured: Mapping[str, list[float]], flags: Mapping[str, list[bool]]
+    pairs: Ints, gap: Floats, odds: Floats, measured: Mapping[str, Floats], flags: Mapping[str, Bools]
 ) -> list[Offer]:
     """The offers of pairs of ends that face each other."""
     rows = zip(pairs.tolist(), gap.tolist(), odds.tolist(), strict=True)
-    values, holding = zip(*measured.values(), strict=True), zip(*flags.values(), strict=True)
+    holding = zip(*(holds.tolist() for holds in flags.values()), strict=True)
     return [
-        Offer("face", row, other, wide, sure, dict(zip(measured, known, strict=True)), tuple(compress(flags, holds)))
-        for ((row, other), wide, sure), known, holds in zip(rows, values, holding, strict=True)
+        Offer("face", row, other, wide, sure, Measured(measured, k), tuple(compress(flags, holds)))
+        for k, (((row, other), wide, sure), holds) in enumerate(zip(rows, holding, strict=True))
     ]
 
 
