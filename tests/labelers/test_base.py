@@ -95,6 +95,16 @@ def test_a_label_that_is_not_sure_is_marked_as_likely():
     assert labels[1].model_dump(mode="json")["likely"] is True
 
 
+def test_an_answer_for_many_parts_stays_one_object_marked_or_not():
+    one, unsure = sure(0.9), sure(0.6)
+    labels = Labeling.judge([one, unsure, one, unsure], 0.4, sure=(0.8, 0.8, 0.95, 0.5)).labels
+    assert [label.likely for label in labels] == [False, True, True, False]
+    labels = Labeling.judge([one, unsure] * 3, 0.4, sure=0.8).labels
+    assert len({id(label) for label in labels}) == 2
+    assert labels[0] is one
+    assert (labels[1].likely, unsure.likely) == (True, False)
+
+
 @pytest.mark.parametrize("unknown", [("Spaceship", None), ("Pipe assembly", "warp core")])
 def test_label_outside_the_vocabulary_is_dropped_and_told(unknown):
     parts = parts_of(scene_of(3), (0,), (1,), (2,))

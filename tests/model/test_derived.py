@@ -2,7 +2,7 @@ import gc
 import weakref
 from dataclasses import dataclass
 
-from cadgraph.model.derived import kept_with, store_of
+from cadgraph.model.derived import forget, kept_with, store_of
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,3 +44,24 @@ def test_what_leads_back_to_the_value_goes_with_it():
     del value
     gc.collect()
     assert seen() is None
+
+
+def test_what_is_forgotten_is_worked_out_again():
+    asked = []
+
+    @kept_with
+    def doubled(value, by):
+        asked.append(by)
+        return 2 * by
+
+    @kept_with
+    def halved(value, by):
+        asked.append(-by)
+        return by / 2
+
+    value = Value(1)
+    doubled(value, 1), halved(value, 1)
+    forget(value, doubled)
+    forget(value, doubled)
+    doubled(value, 1), halved(value, 1)
+    assert asked == [1, -1, 1]

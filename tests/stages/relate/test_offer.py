@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from cadgraph.stages.relate.joint import gather_ends
-from cadgraph.stages.relate.offer import Ahead, EndsAhead, is_hidden, offer_mount
+from cadgraph.stages.relate.offer import Ahead, EndsAhead, Surroundings, is_hidden, near_ends, offer_mount
 from runs import offers, run, taps, touching
 
 
@@ -102,6 +102,55 @@ def test_ends_ahead_lie_on_the_axis_and_not_behind():
     assert [(one.row, one.part, one.alike) for one in found.of(1)] == [(2, 1, False), (3, 1, True)]
     assert [(one.row, one.alike) for one in found.of(2)] == [(0, True), (1, False)]
     assert found.of(0) == []
+
+
+def scattered(seed, n=40):
+    """Short lines on few axes, so that many ends lie before others; the third has one end, every seventh none."""
+    random = np.random.default_rng(seed)
+    lines = {}
+    for part in range(n):
+        place = random.integers(0, 4, 3) * [0.02, 0.1, 0.1] + random.normal(0, 0.002, 3)
+        line = run(place, place + np.array([random.uniform(0.005, 0.05), 0, 0]), only=1 if part % 3 == 0 else None)
+        if part % 7:
+            lines[2 * part] = line
+    return gather_ends(lines)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_near_ends_are_those_of_near_parts_and_those_nearer_than_twice_the_bridge(seed):
+    ends, random = scattered(seed), np.random.default_rng(seed)
+    pairs = sorted({tuple(sorted(random.choice(80, 2, replace=False).tolist())) for _ in range(30)})
+    known, bridge = set(pairs), 0.006
+    wanted = [
+        [p, q]
+        for p in range(len(ends.part))
+        for q in range(p + 1, len(ends.part))
+        if (a := int(ends.part[p])) != (b := int(ends.part[q]))
+        and ((a, b) in known or np.linalg.norm(ends.point[p] - ends.point[q]) <= 2 * bridge)
+    ]
+    assert near_ends(ends, Surroundings(touching(*pairs), bridge)).tolist() == wanted != []
+
+
+def test_no_ends_are_near_where_there_are_none():
+    assert near_ends(gather_ends({}), Surroundings(touching([0, 1]), 0.006)).shape == (0, 2)
+    far = gather_ends({0: run(-1, 0), 3: run(5, 6)})
+    assert near_ends(far, Surroundings(touching([0, 1], [1, 3]), 0.006)).shape == (0, 2)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_what_hides_many_pairs_at_once_hides_each_by_itself(seed):
+    ends, random = scattered(seed), np.random.default_rng(seed)
+    ahead = EndsAhead(ends, near_ends(ends, Surroundings(touching(), 0.05)))
+    pairs = random.integers(0, len(ends.part), (300, 2))
+    gap, own = random.uniform(0, 0.06, 300), ends.part[pairs]
+    found = ahead.hide(pairs, gap, own)
+    each = [
+        any(is_hidden(ahead.of(row), wide, parts) for row in pair)
+        for pair, wide, parts in zip(pairs.tolist(), gap.tolist(), own.tolist(), strict=True)
+    ]
+    assert found.tolist() == each
+    assert 20 < sum(each) < 280
+    assert ahead.hide(pairs[:0], gap[:0], own[:0]).tolist() == []
 
 
 @pytest.mark.parametrize(("gap", "flag"), [(0.0059, set()), (0.0061, {"blocked"})])

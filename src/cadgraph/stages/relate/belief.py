@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -45,16 +45,27 @@ class Beliefs:
         key = frozenset(groups), frozenset(without)
         if key not in known:
             columns = [k for k, (group, name) in enumerate(self.classes) if group in groups and name not in without]
-            known[key] = self.values[:, columns].sum(axis=1)
+            known[key] = _sum_of(self.values, columns)
             known[key].setflags(write=False)
         total: Floats = known[key]
         return total
 
     def of_name(self, name: str) -> Floats:
         """``(n_parts,)`` how likely each part is called so, in whatever group."""
-        columns = [k for k, (_, one) in enumerate(self.classes) if one == name]
-        total: Floats = self.values[:, columns].sum(axis=1)
-        return total
+        return _sum_of(self.values, [k for k, (_, one) in enumerate(self.classes) if one == name])
+
+
+def _sum_of(values: Floats, columns: Sequence[int]) -> Floats:
+    """The sum of some columns in each row."""
+    total = np.empty(len(values))
+    for some in _in_blocks(len(values)):
+        values[some, columns].sum(axis=1, out=total[some])
+    return total
+
+
+def _in_blocks(n_parts: int) -> Iterator[slice]:
+    """Some parts at once, whose rows stay in the processor's cache."""
+    return (slice(first, first + _ROWS) for first in range(0, n_parts, _ROWS))
 
 
 def beliefs_of(labels: Sequence[Label | None], probabilities: Probabilities | None, vocabulary: Vocabulary) -> Beliefs:
@@ -102,9 +113,7 @@ def _values_of(
     if probabilities is not None:
         known = [k for k, said in enumerate(probabilities.classes) if said in column]
         columns = [column[probabilities.classes[k]] for k in known]
-        # Some rows at once, which stay in the processor's cache.
-        for first in range(0, n_parts, _ROWS):
-            some = slice(first, first + _ROWS)
+        for some in _in_blocks(n_parts):
             values[some, columns] = probabilities.values[some, known]
     return values
 
