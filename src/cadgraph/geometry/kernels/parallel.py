@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from cadgraph.model.scene import Ints
 
-__all__ = ["ZERO", "compiled", "for_ranges", "in_turn", "readable", "use_threads"]
+__all__ = ["ZERO", "compiled", "for_ranges", "in_turn", "n_threads", "readable", "use_threads"]
 
 _F = TypeVar("_F", bound=Callable[..., Any])
 _T = TypeVar("_T", bound=np.generic)
@@ -103,7 +103,7 @@ def for_ranges(kernel: Callable[[int, int], object], weights: Ints, workers: int
     Raises:
         ValueError: ``workers`` is below 1.
     """
-    n, n_workers = len(weights), _workers(workers)
+    n, n_workers = len(weights), n_threads(workers)
     if n == 0:
         return
     if n_workers == 1 or n == 1:
@@ -131,7 +131,7 @@ def in_turn(act: Callable[[int], _Found], n: int, workers: int | None = None) ->
     Raises:
         ValueError: ``workers`` is below 1.
     """
-    at_once = _workers(workers)
+    at_once = n_threads(workers)
     if at_once == 1 or n < 2:
         yield from map(act, range(n))
         return
@@ -140,7 +140,12 @@ def in_turn(act: Callable[[int], _Found], n: int, workers: int | None = None) ->
             yield from pool.map(act, range(first, min(first + at_once, n)))
 
 
-def _workers(workers: int | None) -> int:
+def n_threads(workers: int | None = None) -> int:
+    """How many threads to use: what a caller says, else this process's part of the processors.
+
+    Raises:
+        ValueError: ``workers`` is below 1.
+    """
     n_workers = workers if workers is not None else _threads or os.cpu_count() or 1
     if n_workers < 1:
         raise ValueError(f"workers is {n_workers}; give at least 1")

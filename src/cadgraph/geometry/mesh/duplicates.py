@@ -8,6 +8,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from cadgraph.geometry.components import first_of_component
+from cadgraph.geometry.kernels.parallel import n_threads
 from cadgraph.geometry.shape.alignment import fits_in_place, weld
 from cadgraph.geometry.shape.repeats import position_tolerance
 from cadgraph.geometry.shape.similarity import corners_of, deviation, sample_surface
@@ -88,8 +89,9 @@ def _near_pairs(points: Floats, reach: Floats) -> Ints:
     if len(points) < 2:
         return np.zeros((0, 2), np.int64)
     tree = cKDTree(points)
-    # Few have anybody near: who does is counted by all processors, and only theirs become lists.
-    crowded = np.flatnonzero(tree.query_ball_point(points, reach, p=np.inf, return_length=True, workers=-1) > 1)
+    # Few have anybody near: who does is counted by threads, and only theirs become lists.
+    number = tree.query_ball_point(points, reach, p=np.inf, return_length=True, workers=n_threads())
+    crowded = np.flatnonzero(number > 1)
     found: list[tuple[int, int]] = []
     around = tree.query_ball_point(points[crowded], reach[crowded], p=np.inf)
     for i, neighbours in zip(crowded.tolist(), around, strict=True):
