@@ -2,7 +2,7 @@ import gc
 import weakref
 from dataclasses import dataclass
 
-from cadgraph.model.derived import forget, kept_with, store_of
+from cadgraph.model.derived import forget, kept_with, once_for_each, store_of
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,3 +65,16 @@ def test_what_is_forgotten_is_worked_out_again():
     forget(value, doubled)
     doubled(value, 1), halved(value, 1)
     assert asked == [1, -1, 1]
+
+
+def test_the_same_object_is_asked_about_once_and_an_equal_one_again():
+    asked = []
+
+    def of(value):
+        asked.append(value)
+        return [value]
+
+    once = once_for_each(of)
+    first, second = [1], [1]
+    assert once(first) is once(first) is not once(second)
+    assert asked == [[1], [1]]

@@ -10,6 +10,7 @@ from typing import Protocol, runtime_checkable
 
 from cadgraph.config import LabelConfig
 from cadgraph.errors import LabelError
+from cadgraph.model.derived import once_for_each
 from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.labels import Guess, Label
 from cadgraph.model.parts import Contacts, Parts
@@ -66,9 +67,14 @@ class Labeling:
             sure: least confidence of a label that is sure: of all, or of each part.
         """
         least, least_sure = _each(threshold, len(answers)), _each(sure, len(answers))
-        marked = _Marked()
+        # An answer that many parts share stays one object.
+        changed = once_for_each(_with_other_mark)
+
+        def marked(label: Label, limit_of_sure: float) -> Label:
+            return label if label.likely == (label.confidence < limit_of_sure) else changed(label)
+
         labels = tuple(
-            marked[a, limit_of_sure] if a is not None and a.confidence >= limit else None
+            marked(a, limit_of_sure) if a is not None and a.confidence >= limit else None
             for a, limit, limit_of_sure in zip(answers, least, least_sure, strict=True)
         )
         guesses = tuple(
@@ -90,22 +96,8 @@ def _each(value: float | Sequence[float], n_parts: int) -> tuple[float, ...]:
     return tuple(value) if isinstance(value, Sequence) else (value,) * n_parts
 
 
-class _Marked:
-    """Labels that say whether they are only likely; one object, as many parts as it may be the label of, stays one."""
-
-    def __init__(self) -> None:
-        self._known: dict[tuple[int, bool], tuple[Label, Label]] = {}
-
-    def __getitem__(self, said: tuple[Label, float]) -> Label:
-        label, sure = said
-        likely = label.confidence < sure
-        if label.likely == likely:
-            return label
-        # With the label itself, as another one may get the number of one that is gone.
-        key = id(label), likely
-        if key not in self._known:
-            self._known[key] = label, label.model_copy(update={"likely": likely})
-        return self._known[key][1]
+def _with_other_mark(label: Label) -> Label:
+    return label.model_copy(update={"likely": not label.likely})
 
 
 class Labeler(Protocol):

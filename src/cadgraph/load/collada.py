@@ -29,7 +29,7 @@ from cadgraph.load.packing import Notes, Piece, metres_z_up, pack
 from cadgraph.load.polygons import triangulate
 from cadgraph.load.triangles import clean_triangles, main_color
 from cadgraph.model.facts import Fact
-from cadgraph.model.scene import Faces, Floats, Ints, Scene, Source
+from cadgraph.model.scene import Faces, Floats, Ints, Scene, Source, ranges
 
 if TYPE_CHECKING:
     from cadgraph.config import LoadConfig
@@ -242,7 +242,7 @@ def _cut(primitive: Any, path: str, notes: Notes) -> tuple[Floats, Ints] | None:
     if not usable.all():
         message = f"faces without 3 to {_MOST_CORNERS:,} corners were dropped"
         notes.add("invalid-face-counts", message, path)
-    chosen = _ranges(starts[usable], counts[usable])
+    chosen = ranges(starts[usable], counts[usable])
     counts, corners = counts[usable], corners[chosen]
     sound = (corners >= 0) & (corners < len(points))
     sound[sound] = np.isfinite(points[corners[sound]]).all(axis=1)
@@ -255,9 +255,3 @@ def _cut(primitive: Any, path: str, notes: Notes) -> tuple[Floats, Ints] | None:
     if len(cut.twisted):
         notes.add("self-intersecting-faces", "faces that cross themselves were cut as well as can be", path)
     return points, np.asarray(cut.corners, np.int64)
-
-
-def _ranges(starts: Ints, lengths: Ints) -> Ints:
-    """``arange(start, start + length)`` of each pair, one behind the other."""
-    found: Ints = np.arange(int(lengths.sum())) + np.repeat(starts - (np.cumsum(lengths) - lengths), lengths)
-    return found

@@ -6,12 +6,13 @@ from collections.abc import Callable
 from functools import wraps
 from typing import Any, ParamSpec, TypeVar
 
-__all__ = ["forget", "kept_with", "store_of"]
+__all__ = ["forget", "kept_with", "once_for_each", "store_of"]
 
 # In the value itself: what is kept often leads back to the value, and a table of it would keep both for ever.
 _KEPT = "_derived"
 _P = ParamSpec("_P")
 _R = TypeVar("_R")
+_V = TypeVar("_V")
 
 
 def kept_with(function: Callable[_P, _R]) -> Callable[_P, _R]:
@@ -44,6 +45,24 @@ def kept_with(function: Callable[_P, _R]) -> Callable[_P, _R]:
 def forget(value: object, function: Callable[..., object]) -> None:
     """Throws away what ``kept_with`` keeps of a function with a value; who asks again waits for it again."""
     _kept(value).pop(function, None)
+
+
+def once_for_each(function: Callable[[_V], _R]) -> Callable[[_V], _R]:
+    """A function that gives the same result for the very same object, for values that can't keep anything themselves.
+
+    Args:
+        function: pure. What it was asked of is kept as long as the new one lives.
+    """
+    known: dict[int, tuple[_V, _R]] = {}
+
+    def once(value: _V) -> _R:
+        found = known.get(id(value))
+        if found is None:
+            # With the value, as another one may get the number of one that is gone.
+            found = known[id(value)] = value, function(value)
+        return found[1]
+
+    return once
 
 
 def store_of(value: object, *name: object) -> dict[Any, Any]:

@@ -26,6 +26,7 @@ __all__ = [
     "StatedLink",
     "mesh_of_face",
     "mesh_of_vertex",
+    "ranges",
     "turned_boxes",
 ]
 
@@ -109,8 +110,8 @@ class MeshArrays:
         """Some of the meshes, in the order given."""
         n_vertices, n_faces = np.diff(self.vertex_offsets)[order], np.diff(self.face_offsets)[order]
         return MeshArrays(
-            self.vertices[_ranges(self.vertex_offsets[order], n_vertices)],
-            self.faces[_ranges(self.face_offsets[order], n_faces)],
+            self.vertices[ranges(self.vertex_offsets[order], n_vertices)],
+            self.faces[ranges(self.face_offsets[order], n_faces)],
             _offsets(n_vertices),
             _offsets(n_faces),
         )
@@ -429,8 +430,8 @@ def _offsets(counts: npt.ArrayLike) -> Ints:
     return np.concatenate([[0], np.cumsum(np.asarray(counts, np.int64))]).astype(np.int64)
 
 
-def _ranges(starts: Ints, lengths: Ints) -> Ints:
+def ranges(starts: Ints, lengths: Ints) -> Ints:
     """Concatenated ``arange(start, start + length)`` of each pair."""
     ends = np.cumsum(lengths)
-    ranges: Ints = np.arange(int(lengths.sum())) + np.repeat(starts - (ends - lengths), lengths)
-    return ranges
+    found: Ints = np.arange(int(lengths.sum())) + np.repeat(starts - (ends - lengths), lengths)
+    return found

@@ -16,7 +16,7 @@ from scipy.spatial.distance import cdist
 from cadgraph._io.progress import Progress, quiet
 from cadgraph.geometry.contact.broad import near_boxes
 from cadgraph.model.parts import Contacts
-from cadgraph.model.scene import Floats, Ints, Scene, mesh_of_vertex
+from cadgraph.model.scene import Floats, Ints, Scene, mesh_of_vertex, ranges
 
 __all__ = ["SurfacePoints", "find_point_contacts", "sample_surface"]
 
@@ -118,7 +118,7 @@ def _fill(starts: Floats, ends: Floats, spacing: float) -> tuple[Floats, Ints]:
     lengths = np.linalg.norm(ends - starts, axis=1)
     counts = np.maximum(np.ceil(lengths / spacing - TOLERANCE).astype(np.int64) - 1, 0)
     line = np.repeat(np.arange(len(starts)), counts)
-    step = np.arange(len(line)) - np.repeat(np.cumsum(counts) - counts, counts) + 1
+    step = ranges(np.ones_like(counts), counts)
     share = (step * spacing / lengths[line])[:, None] if len(line) else np.zeros((0, 1))
     return starts[line] + share * (ends[line] - starts[line]), line
 

@@ -14,7 +14,7 @@ from cadgraph.load.rvm.chunks import Words
 from cadgraph.load.rvm.facets import triangles_of
 from cadgraph.load.rvm.primitives import FACETS, Primitives
 from cadgraph.load.rvm.shapes import Fineness, Layout, coarser, cut, lay_out, layouts
-from cadgraph.model.scene import Faces, Floats, Ints
+from cadgraph.model.scene import Faces, Floats, Ints, ranges
 
 __all__ = ["Meshes", "Shape", "cut_shapes", "place"]
 
@@ -160,7 +160,7 @@ def place(primitives: Primitives, shapes: list[Shape | None], shape: Ints, joine
 def _relative(primitives: Primitives, shape: Ints, kept: Ints, starts: Ints, ends: Ints) -> tuple[Ints, Floats, Floats]:
     """Shape and rounded placement of primitives, seen from the first one of each group; and both unrounded."""
     counts = ends - starts
-    inside = np.repeat(starts - (np.cumsum(counts) - counts), counts) + np.arange(int(counts.sum()))
+    inside = ranges(starts, counts)
     own, base = kept[inside], kept[np.repeat(starts, counts)]
     back = primitives.turn[base].transpose(0, 2, 1)
     turn = primitives.turn[own] @ back

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from cadgraph.model.derived import kept_with, store_of
+from cadgraph.model.derived import kept_with, once_for_each, store_of
 from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.labels import Guess, Label
 from cadgraph.model.parts import Contacts, Parts
@@ -51,13 +51,13 @@ def part_records(results: Results) -> list[Part]:
     said = [(label, _possible(results, part)) for part, label in enumerate(results.labels)]
     ids = ids_of_parts(results.parts)
     new = [part for part in range(len(said)) if part not in kept or kept[part][0] != said[part]]
-    round_guesses, round_labels = _RoundGuesses(), _RoundLabels()
+    round_guesses, round_label = _RoundGuesses(), once_for_each(_rounded)
     for start in range(0, len(new), _AT_ONCE):
         some = new[start : start + _AT_ONCE]
         for part, shape in zip(some, _points_of(results, some), strict=True):
             label, guesses = said[part]
-            known = round_labels.of(label), round_guesses[tuple(guesses)]
-            kept[part] = said[part], _part_of(results, part, ids, shape, *known)
+            known = None if label is None else round_label(label)
+            kept[part] = said[part], _part_of(results, part, ids, shape, known, round_guesses[tuple(guesses)])
     return [kept[part][1] for part in range(results.parts.n_parts)]
 
 
@@ -167,21 +167,9 @@ def findings(results: Results) -> list[Diagnostic]:
     return found
 
 
-class _RoundLabels:
-    """Labels as the graph holds them: rounded, without what else a part may be; what is one object stays one."""
-
-    def __init__(self) -> None:
-        self._known: dict[int, Label] = {}
-
-    def of(self, label: Label | None) -> Label | None:
-        """The label; it lives at least as long as this."""
-        if label is None:
-            return None
-        found = self._known.get(id(label))
-        if found is None:
-            update = {"confidence": round(label.confidence, 6), "guesses": ()}
-            found = self._known[id(label)] = label.model_copy(update=update)
-        return found
+def _rounded(label: Label) -> Label:
+    """A label as the graph holds it: without what else the part may be, which stands beside it."""
+    return label.model_copy(update={"confidence": round(label.confidence, 6), "guesses": ()})
 
 
 class _RoundGuesses(dict[tuple[Guess, ...], tuple[Guess, ...]]):

@@ -14,7 +14,7 @@ from cadgraph.geometry.line.centreline import Centreline
 from cadgraph.model.derived import kept_with
 from cadgraph.model.parts import Bools, Contacts
 from cadgraph.model.records import BY_USER, CUT
-from cadgraph.model.scene import Floats, Ints
+from cadgraph.model.scene import Floats, Ints, ranges
 from cadgraph.stages.relate.evidence import CURVES, FLAGS, add_up, add_up_one, score_of, tell
 from cadgraph.stages.relate.joint import Ends, Tap, find_tap
 from cadgraph.stages.relate.stated import REACH, Stated
@@ -203,7 +203,7 @@ class EndsAhead:
         row = pairs.ravel()
         number = self._first[row + 1] - self._first[row]
         pair = np.repeat(np.arange(len(row)), number) // 2
-        one = np.arange(len(pair)) + np.repeat(self._first[row] - (np.cumsum(number) - number), number)
+        one = ranges(self._first[row], number)
         other = (self._part[one][:, None] != own[pair]).all(axis=1)
         within = _lies_within(gap[pair], self._distance[one], self._alike[one])
         return np.bincount(pair[other & within], minlength=len(pairs)) > 0
@@ -402,8 +402,7 @@ def _ends_of_pairs(ends: Ends, pairs: Ints) -> Ints:
     count = last - first
     n_pairs = count.prod(axis=1)
     which = np.repeat(np.arange(len(pairs)), n_pairs)
-    number = np.arange(len(which)) - np.repeat(np.cumsum(n_pairs) - n_pairs, n_pairs)
-    p, q = number // np.maximum(count[which, 1], 1), number % np.maximum(count[which, 1], 1)
+    p, q = np.divmod(ranges(np.zeros_like(n_pairs), n_pairs), count[which, 1])
     return np.stack([first[which, 0] + p, first[which, 1] + q], axis=1)
 
 
