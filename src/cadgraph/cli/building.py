@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 from rich.markup import escape
 
+from cadgraph._io.garbage import collector_paused
 from cadgraph._io.text import printable
 from cadgraph.cli.application import app
 from cadgraph.cli.asking import AskingOptions, asks
@@ -124,23 +125,26 @@ def build(
         return
     from cadgraph.session.run import run
 
-    with bars(() if report else ("draw report",)) as progress:
-        labeler = asking.labeler(chosen, output, progress)
-        outcome = run(
-            scenes[0],
-            output,
-            asking.stored(chosen, before),
-            labels=labels,
-            vocabulary=vocabulary,
-            labeler=labeler,
-            report=report,
-            progress=progress,
-            workers=workers,
-            tiles=tiles,
-            ray=ray,
-        )
-    tell(outcome)
-    asking.tell(labeler, outcome.graph)
+    # To look through a large graph for what nobody holds takes seconds, and the process is about to end.
+    with collector_paused():
+        with bars(() if report else ("draw report",)) as progress:
+            labeler = asking.labeler(chosen, output, progress)
+            outcome = run(
+                scenes[0],
+                output,
+                asking.stored(chosen, before),
+                labels=labels,
+                vocabulary=vocabulary,
+                labeler=labeler,
+                report=report,
+                progress=progress,
+                workers=workers,
+                tiles=tiles,
+                ray=ray,
+            )
+        tell(outcome)
+        asking.tell(labeler, outcome.graph)
+        del outcome
 
 
 def _build_many(scenes: list[Path], output: Path, config: Config, **more: Any) -> None:

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from cadgraph.geometry.kernels.borrow import borrow
-from cadgraph.geometry.kernels.parallel import compiled, readable
+from cadgraph.geometry.kernels.parallel import compiled, for_ranges, readable
 from cadgraph.model.grid import Grid
 from cadgraph.model.parts import Bools
 from cadgraph.model.scene import Faces, Floats, Ints, Scene
@@ -33,13 +33,18 @@ def occupied(scene: Scene, meshes: Ints, low: float, high: float, grid: Grid) ->
     """
     columns, rows = grid.size
     found = np.zeros((rows, columns), np.bool_)
-    for part, numbers in _in_place(scene, meshes):
-        _fill(
-            readable(part.placed_vertices(), np.float64), readable(part.placed_faces(), np.int32),
-            readable(part.vertex_offsets, np.int64), readable(part.face_offsets, np.int64),
-            readable(numbers, np.int64), round(float(low), 6), round(float(high), 6), grid.origin[0], grid.origin[1],
-            1.0 / grid.step, found,
-        )  # fmt: skip
+
+    def fill(first: int, last: int) -> None:
+        # Threads may mark the same square: all of them write that it is one.
+        for part, numbers in _in_place(scene, meshes[first:last]):
+            _fill(
+                readable(part.placed_vertices(), np.float64), readable(part.placed_faces(), np.int32),
+                readable(part.vertex_offsets, np.int64), readable(part.face_offsets, np.int64),
+                readable(numbers, np.int64), round(float(low), 6), round(float(high), 6), grid.origin[0],
+                grid.origin[1], 1.0 / grid.step, found,
+            )  # fmt: skip
+
+    for_ranges(fill, np.diff(scene.face_offsets)[meshes])
     return found
 
 

@@ -27,9 +27,15 @@ def tee():
     return Centreline(branches, ends, (Junction(points[1], (0, 1, 2)),), 0.97)
 
 
+def one(lines):
+    (line,) = lines
+    return line
+
+
 def test_a_placed_line_is_the_same_elsewhere(tee):
-    turn, shift = Rotation.random(random_state=1).as_matrix(), np.array([3.0, -2.0, 7.0])
-    there = tee.placed(turn, shift)
+    turns, shifts = Rotation.random(2, random_state=1).as_matrix(), np.array([[0.0, 0, 0], [3, -2, 7]])
+    turn, shift = turns[1], shifts[1]
+    _, there = tee.placed(turns, shifts)
     for end, moved in zip(tee.ends, there.ends, strict=True):
         assert moved.point == pytest.approx(turn @ end.point + shift, abs=1e-15)
         assert moved.direction == pytest.approx(turn @ end.direction, abs=1e-15)
@@ -41,9 +47,21 @@ def test_a_placed_line_is_the_same_elsewhere(tee):
     assert (there.n_ends, there.radii, there.branch_of_end) == (3, [0.1, 0.1, 0.05], (0, 1, 2))
 
 
+def test_a_line_lies_to_the_last_bit_where_it_would_if_it_were_placed_by_itself(tee):
+    turns, shifts = Rotation.random(50, random_state=3).as_matrix(), np.random.default_rng(3).normal(size=(50, 3))
+    for k, there in enumerate(tee.placed(turns, shifts)):
+        alone = one(tee.placed(turns[k : k + 1], shifts[k : k + 1]))
+        assert np.array_equal(there.table_of_ends, alone.table_of_ends, equal_nan=True)
+        for branch, other in zip(there.branches, alone.branches, strict=True):
+            assert np.array_equal(branch.points, other.points)
+        assert np.array_equal(there.junctions[0].point, alone.junctions[0].point)
+    assert k == 49
+
+
 def test_a_placed_line_can_be_placed_and_changed_again(tee):
     turn, shift = Rotation.random(random_state=2).as_matrix(), np.array([1.0, 2.0, 3.0])
-    back = tee.placed(turn, shift).placed(turn.T, -turn.T @ shift)
+    there = one(tee.placed(turn[None], shift[None]))
+    back = one(there.placed(turn.T[None], -(turn.T @ shift)[None]))
     assert back.table_of_ends == pytest.approx(tee.table_of_ends, abs=1e-12, nan_ok=True)
-    fewer = replace(tee.placed(turn, shift), ends=())
+    fewer = replace(there, ends=())
     assert (fewer.ends, fewer.n_ends, fewer.branch_of_end) == ((), 0, ())

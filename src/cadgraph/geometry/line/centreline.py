@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -43,12 +44,14 @@ class Branch:
         """The least outer radius along it [m]."""
         return float(self.radius.min())
 
-    def placed(self, turn: Floats, shift: Floats) -> Branch:
-        """The same run in another place: turned by a ``(3, 3)`` rotation, then moved [m]."""
-        there = Branch(self.points @ turn.T + shift, self.radius, self.bore, self.closed)
+    def placed(self, turns: Floats, shifts: Floats) -> Iterator[Branch]:
+        """The same run in other places; arguments as for ``Centreline.placed``."""
         # A place changes neither its length nor its radii, which are asked for of every line of a plant.
-        there.__dict__.update(length=self.length, widest=self.widest, narrowest=self.narrowest)
-        return there
+        known = {"length": self.length, "widest": self.widest, "narrowest": self.narrowest}
+        for points in np.matmul(self.points, turns.transpose(0, 2, 1)) + shifts[:, None]:
+            there = Branch(points, self.radius, self.bore, self.closed)
+            there.__dict__.update(known)
+            yield there
 
 
 @dataclass(frozen=True)
@@ -131,25 +134,27 @@ class Centreline:
         rows = [(*e.point, *e.direction, e.radius, e.bore, self.branches[e.branch].length) for e in self.ends]
         return np.array(rows, np.float64).reshape(-1, 9)
 
-    def placed(self, turn: Floats, shift: Floats) -> Centreline:
-        """The same line in another place.
+    def placed(self, turns: Floats, shifts: Floats) -> Iterator[Centreline]:
+        """The same line in other places; each lies where it would if it were placed by itself, to the last bit.
 
         Args:
-            turn: ``(3, 3)`` rotation.
-            shift: ``(3,)`` translation after it [m].
+            turns: ``(n, 3, 3)`` rotations.
+            shifts: ``(n, 3)`` translations after them [m].
         """
-        there = object.__new__(_Placed)
-        vars(there).update(
-            branches=tuple(one.placed(turn, shift) for one in self.branches),
-            junctions=tuple(Junction(turn @ one.point + shift, one.branches) for one in self.junctions),
-            share=self.share,
-            table_of_ends=_moved(self.table_of_ends, turn, shift),
-            # A place changes none of these.
-            length=self.length,
-            narrowest=self.narrowest,
-            branch_of_end=self.branch_of_end,
-        )
-        return there
+        # A place changes none of these.
+        known = {
+            "share": self.share, "length": self.length, "narrowest": self.narrowest,
+            "branch_of_end": self.branch_of_end, "junctions": (),
+        }  # fmt: skip
+        branches = zip(*(branch.placed(turns, shifts) for branch in self.branches), strict=True)
+        tables = _moved(self.table_of_ends, turns, shifts)
+        for turn, shift, own, table in zip(turns, shifts, branches, tables, strict=True):
+            there = object.__new__(_Placed)
+            vars(there).update(known, branches=own, table_of_ends=table)
+            if self.junctions:
+                junctions = tuple(Junction(turn @ one.point + shift, one.branches) for one in self.junctions)
+                vars(there).update(junctions=junctions)
+            yield there
 
 
 class _Placed(Centreline):
@@ -162,12 +167,12 @@ class _Placed(Centreline):
         return tuple(End(row[:3], row[3:6], float(row[6]), float(row[7]), branch) for row, branch in rows)
 
 
-def _moved(ends: Floats, turn: Floats, shift: Floats) -> Floats:
-    """A table of ends with their points and directions elsewhere."""
-    moved = ends.copy()
+def _moved(ends: Floats, turns: Floats, shifts: Floats) -> Floats:
+    """A table of ends with their points and directions elsewhere, for each place."""
+    moved = np.repeat(ends[None], len(turns), axis=0)
     # One product for each, so that an end lies where it would by itself to the last bit.
-    moved[:, :3] = (turn @ ends[:, :3, None])[..., 0] + shift
-    moved[:, 3:6] = (turn @ ends[:, 3:6, None])[..., 0]
+    moved[:, :, :3] = (turns[:, None] @ ends[None, :, :3, None])[..., 0] + shifts[:, None]
+    moved[:, :, 3:6] = (turns[:, None] @ ends[None, :, 3:6, None])[..., 0]
     return moved
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -78,7 +78,7 @@ def _lines_of_shapes(parts: Parts, chosen: Sequence[int], workers: int | None) -
     known, traced = shapes_of(parts), store_of(parts.scene, "lines of shapes")
     shapes = [shape for shape in dict.fromkeys(known.shape[list(chosen)].tolist()) if shape not in traced]
     traced |= _trace(parts.scene, parts.properties, known, shapes, workers)
-    return {part: _placed(traced, known, part) for part in chosen}
+    return dict(zip(chosen, _placed(traced, known, chosen), strict=True))
 
 
 def _lines_of_heads(
@@ -89,12 +89,24 @@ def _lines_of_heads(
     scene, properties = scene.select(heads), properties.select(heads)
     known = analyse_shapes(scene, properties)
     traced = _trace(scene, properties, known, range(len(known.facts)), workers)
-    return {part: _placed(traced, known, row) for row, part in enumerate(chosen)}
+    return dict(zip(chosen, _placed(traced, known, range(len(chosen))), strict=True))
 
 
-def _placed(lines: dict[int, Centreline | None], known: ShapeAnalysis, mesh: int) -> Centreline | None:
-    line = lines[int(known.shape[mesh])]
-    return None if line is None else line.placed(known.turn[mesh], known.shift[mesh])
+def _placed(
+    lines: Mapping[int, Centreline | None], known: ShapeAnalysis, meshes: Sequence[int]
+) -> list[Centreline | None]:
+    """The line of each mesh: that of its shape where the mesh is."""
+    found: list[Centreline | None] = [None] * len(meshes)
+    row_of_shape: dict[int, list[int]] = {}
+    for row, shape in enumerate(known.shape[list(meshes)].tolist()):
+        row_of_shape.setdefault(shape, []).append(row)
+    for shape, rows in row_of_shape.items():
+        line = lines[shape]
+        if line is not None:
+            those = [meshes[row] for row in rows]
+            for row, there in zip(rows, line.placed(known.turn[those], known.shift[those]), strict=True):
+                found[row] = there
+    return found
 
 
 def _trace(

@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from cadgraph.labelers.embedded.classifier import Inputs, Talk
-from cadgraph.model.scene import Floats, Ints
+from cadgraph.model.scene import Floats, Ints, ranges
 
 __all__ = ["Alike", "find_alike"]
 
@@ -59,12 +59,12 @@ def find_alike(inputs: Inputs, sides: Floats, here: Ints, there: Ints, rounds: i
     of_kinds = Inputs(inputs.shapes, inputs.shape[first], inputs.places[first])
     _, side = _distinct(sides + 0.0)
     starts = np.searchsorted(here, np.arange(len(inputs.shape) + 1))
+    number = np.diff(starts)
     talks, kinds = [], [kind]
     for _ in range(rounds):
         first, after = _told_apart(kind, side, starts, there)
-        around = [np.arange(starts[part], starts[part + 1]) for part in first.tolist()]
-        rows = np.concatenate(around) if around else np.zeros(0, np.int64)
-        hearer = np.repeat(np.arange(len(first)), [len(some) for some in around])
+        rows = ranges(starts[first], number[first])
+        hearer = np.repeat(np.arange(len(first)), number[first])
         talks.append(Talk(kind[first], hearer, kind[there[rows]], sides[rows]))
         kind = after
         kinds.append(kind)

@@ -15,7 +15,7 @@ from cadgraph.model.scene import Floats, Ints
 
 __all__ = ["LIMIT", "Classifier", "Inputs", "Talk", "aggregate"]
 
-_ROWS = 4_096  # parts that are looked at at once
+_ROWS = 2_048  # parts that are looked at at once: what they come to fits a cache
 LIMIT = 6.0
 """Standardised inputs are cut off here: what lies farther out was never seen in training."""
 

@@ -91,16 +91,15 @@ class EmbeddedLabeler:
 
     def _answers(self, parts: Parts, seen: Observation, verdicts: Verdicts, least: Floats) -> list[Label | None]:
         """The likeliest label of each part, and why."""
-        best = verdicts.names.argmax(axis=1) if len(verdicts.classes) else np.zeros(parts.n_parts, np.int64)
-        around = seen.surroundings
-        starts = np.searchsorted(around.here, np.arange(parts.n_parts + 1))
-        said = [
-            verdicts.classes[k][1] if len(p) and p[k] >= limit else None
-            for k, p, limit in zip(best.tolist(), verdicts.names, least.tolist(), strict=True)
-        ]
-        alike = np.expm1(around.places[:, 1]).round().astype(np.int64).tolist()
         if not len(verdicts.classes):
             return [None] * parts.n_parts
+        around = seen.surroundings
+        starts = np.searchsorted(around.here, np.arange(parts.n_parts + 1))
+        best = verdicts.names.argmax(axis=1)
+        said: list[str | None] = [None] * parts.n_parts
+        for part in np.flatnonzero(verdicts.names[np.arange(parts.n_parts), best] >= least).tolist():
+            said[part] = verdicts.classes[best[part]][1]
+        alike = np.expm1(around.places[:, 1]).round().astype(np.int64).tolist()
         forms = [describe_form(facts) for facts in seen.facts]
         # Many parts are alike: one object stands for all that are equal.
         known: dict[str, GeometryEvidence] = {}

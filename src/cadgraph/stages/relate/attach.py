@@ -13,6 +13,7 @@ from cadgraph.model.derived import store_of
 from cadgraph.model.parts import Contacts, Parts
 from cadgraph.model.scene import Floats, Ints
 from cadgraph.stages.relate.decide import Decision, decide_joints, settle_faces
+from cadgraph.stages.relate.evidence import scores_of
 from cadgraph.stages.relate.joint import Ends, Facing, Tap, gather_ends, nearest_on, same_place
 from cadgraph.stages.relate.offer import (
     EndsAhead,
@@ -28,7 +29,17 @@ from cadgraph.stages.relate.offer import (
 )
 from cadgraph.stages.relate.stated import REACH, Stated, mouth_gap
 
-__all__ = ["Attachments", "Mount", "Side", "Tapped", "attach_lines", "facings_of", "flat_contacts", "regions_of"]
+__all__ = [
+    "Attachments",
+    "Mount",
+    "Side",
+    "Tapped",
+    "attach_lines",
+    "facings_of",
+    "flat_contacts",
+    "regions_of",
+    "singles_of",
+]
 
 # The middle of a contact lies before an end, or behind it by at most this many radii or this much [m]: a nozzle that
 # runs into a shell.
@@ -241,13 +252,13 @@ def _attached(
     """What joins what, by kind of joint; ends that have a twin join nothing of their own."""
     twins = dict(doubled)
     made = {row: offer for row, offer in decision.joined.items() if row not in twins}
-    ordered = sorted(made.items(), key=lambda item: item[0])
+    singles = singles_of(made)
     return Attachments(
         ends=ends,
         facings=facings_of(made),
         doubled=tuple(doubled),
-        taps=tuple(Tapped(row, o.other, o.tap, o.score) for row, o in ordered if o.tap is not None),
-        mounts=tuple(Mount(row, o.other, o.gap, o.score) for row, o in ordered if o.kind == "mount"),
+        taps=tuple(Tapped(row, o.other, o.tap, o.score) for row, o in singles if o.tap is not None),
+        mounts=tuple(Mount(row, o.other, o.gap, o.score) for row, o in singles if o.kind == "mount"),
         sides=sides,
         made=made,
         refused={row: offer for row, offer in decision.refused.items() if row not in twins},
@@ -256,9 +267,24 @@ def _attached(
 
 def facings_of(made: Mapping[int, Offer]) -> tuple[Facing, ...]:
     """The joints between two ends, the surest first."""
-    faces = {(offer.row, offer.other): offer for offer in made.values() if offer.kind in ("face", "corner")}
-    ordered = sorted(faces.values(), key=lambda offer: (-round(offer.odds, 6), offer.row, offer.other))
-    return tuple(Facing(o.row, o.other, o.gap, o.kind == "corner", o.score) for o in ordered)
+    # Of a joint's two ends the first is enough, unless that one has another joint.
+    firsts = [
+        offer for row, offer in made.items()
+        if _is_face(offer) and (row == offer.row or made.get(offer.row) is not offer)
+    ]  # fmt: skip
+    faces = list({(offer.row, offer.other): offer for offer in firsts}.values())
+    odds = np.array([offer.odds for offer in faces])
+    rows = np.array([(offer.row, offer.other) for offer in faces], np.int64).reshape(-1, 2)
+    order = np.lexsort((rows[:, 1], rows[:, 0], [-round(value, 6) for value in odds.tolist()]))
+    return tuple(
+        Facing(offer.row, offer.other, offer.gap, offer.kind == "corner", score)
+        for offer, score in zip(map(faces.__getitem__, order.tolist()), scores_of(odds[order]).tolist(), strict=True)
+    )
+
+
+def singles_of(made: Mapping[int, Offer]) -> list[tuple[int, Offer]]:
+    """The joints of one end only with the rows of these, ascending: at solids, and on the sides of lines."""
+    return sorted(((row, offer) for row, offer in made.items() if not _is_face(offer)), key=lambda item: item[0])
 
 
 def _double(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -203,6 +203,6 @@ def _put_in_run(net: Net, joint: int, there: _Tap, own: Span) -> None:
     point = own.points[-1][None]
     for number, unit, port in ((there.others[0], chain[0], ports[0]), (there.others[1], chain[-1], ports[-1])):
         span = net.remove(number)
-        net.add(replace(span, a=unit, port_a=port) if span.a == joint else replace(span, b=unit, port_b=port))
+        net.add(span._replace(a=unit, port_a=port) if span.a == joint else span._replace(b=unit, port_b=port))
     for k in range(len(chain) - 1):
         net.add(Span(chain[k], chain[k + 1], (), point, 0.0, (), own.confidence, ports[k], ports[k + 1]))

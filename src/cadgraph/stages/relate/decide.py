@@ -33,12 +33,7 @@ class Decision:
 
 def settle_faces(faces: Sequence[Offer]) -> dict[int, Offer]:
     """The joints between ends that touch and that nothing else comes near, by end."""
-    best: dict[int, list[Offer]] = {}
-    for offer in faces:
-        for row in (offer.row, offer.other):
-            best.setdefault(row, []).append(offer)
-    for offers in best.values():
-        offers.sort(key=lambda offer: (-offer.odds, offer.row, offer.other))
+    best = _best_first(faces)
     settled = {}
     for offer in faces:
         if offer.kind != "face" or abs(offer.gap) > _TOUCHING or offer.odds < _SURE:
@@ -46,6 +41,18 @@ def settle_faces(faces: Sequence[Offer]) -> dict[int, Offer]:
         if all(_leads(offer, best[row]) for row in (offer.row, offer.other)):
             settled[offer.row] = settled[offer.other] = offer
     return settled
+
+
+def _best_first(faces: Sequence[Offer]) -> dict[int, list[Offer]]:
+    """The offers of each end, the likeliest first."""
+    found: dict[int, list[Offer]] = {}
+    for offer in faces:
+        for row in (offer.row, offer.other):
+            found.setdefault(row, []).append(offer)
+    for offers in found.values():
+        if len(offers) > 1:
+            offers.sort(key=lambda offer: (-offer.odds, offer.row, offer.other))
+    return found
 
 
 def _leads(offer: Offer, offers: Sequence[Offer]) -> bool:

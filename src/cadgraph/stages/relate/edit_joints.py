@@ -13,7 +13,7 @@ from cadgraph.geometry.line.centreline import Centreline
 from cadgraph.model.parts import Joint, Parts
 from cadgraph.model.records import BY_USER, CUT
 from cadgraph.model.scene import Floats
-from cadgraph.stages.relate.attach import Attachments, Mount, Tapped, facings_of
+from cadgraph.stages.relate.attach import Attachments, Mount, Tapped, facings_of, singles_of
 from cadgraph.stages.relate.edits import JointEdit, NetworkEdits, Unmet
 from cadgraph.stages.relate.joint import Tap, nearest_on
 from cadgraph.stages.relate.offer import Offer
@@ -77,7 +77,7 @@ def _own(found: Attachments, edit: JointEdit, made: Mapping[int, Offer]) -> dict
     pair = {edit.first, edit.second}
     rows = (*found.ends.of_part.get(edit.first, ()), *found.ends.of_part.get(edit.second, ()))
     own = {row: made[row] for row in rows if row in made and set(_pair(found, made[row])) == pair}
-    sure = {id(o): replace(o, odds=_CERTAIN, measured={}, flags=(BY_USER,), said="") for o in own.values()}
+    sure = {id(o): o._replace(odds=_CERTAIN, measured={}, flags=(BY_USER,), said="") for o in own.values()}
     return {row: sure[id(offer)] for row, offer in own.items()}
 
 
@@ -116,14 +116,14 @@ def _cut_twins(found: Attachments, edits: NetworkEdits) -> dict[int, Offer]:
 
 def _with_made(found: Attachments, made: Mapping[int, Offer], at: Mapping[int, Floats]) -> Attachments:
     """What joins what with other joints made; ``at`` holds the points of solids that are not at their ends."""
-    ordered = sorted(made.items(), key=lambda item: item[0])
+    singles = singles_of(made)
     return replace(
         found,
         made=made,
         refused={row: offer for row, offer in found.refused.items() if row not in made},
         facings=facings_of(made),
-        taps=tuple(Tapped(row, o.other, o.tap, o.score, BY_USER in o.flags) for row, o in ordered if o.tap is not None),
-        mounts=tuple(Mount(row, o.other, o.gap, o.score, at.get(row)) for row, o in ordered if o.kind == "mount"),
+        taps=tuple(Tapped(row, o.other, o.tap, o.score, BY_USER in o.flags) for row, o in singles if o.tap is not None),
+        mounts=tuple(Mount(row, o.other, o.gap, o.score, at.get(row)) for row, o in singles if o.kind == "mount"),
     )
 
 
@@ -132,7 +132,7 @@ def _pair(found: Attachments, offer: Offer) -> tuple[int, int]:
 
 
 def _cut(offer: Offer) -> Offer:
-    return replace(offer, odds=_NEVER, measured={}, flags=(CUT,), said="")
+    return offer._replace(odds=_NEVER, measured={}, flags=(CUT,), said="")
 
 
 def _make(chance: _Chance, made: dict[int, Offer], refused: dict[int, Offer], at: dict[int, Floats]) -> None:
@@ -195,7 +195,7 @@ def _at_side(
             if branch.closed or wall < s < branch.length - wall:
                 gap = max(0.0, apart - wall)
                 tap = Tap(number, s, foot, gap, wall)
-                yield _Chance(replace(_offer("tap", row, part, gap), tap=tap), _cost(gap, made, row))
+                yield _Chance(_offer("tap", row, part, gap)._replace(tap=tap), _cost(gap, made, row))
 
 
 def _at_solid(

@@ -28,6 +28,7 @@ __all__ = [
     "add_up",
     "add_up_one",
     "score_of",
+    "scores_of",
     "tell",
     "tell_terms",
 ]
@@ -138,7 +139,12 @@ def _given(curve: Curve, value: float) -> float:
 @lru_cache(maxsize=_MOST_KEPT)
 def score_of(odds: float) -> float:
     """How sure a joint of these log-odds is, 0..1."""
-    return float(1 / (1 + np.exp(-np.clip(odds, -30, 30))))
+    return float(scores_of(odds))
+
+
+def scores_of(odds: Floats | float) -> Floats:
+    """How sure joints of these log-odds are, 0..1."""
+    return np.asarray(1 / (1 + np.exp(-np.clip(odds, -30, 30))))
 
 
 def tell(measured: Mapping[str, float], flags: Sequence[str] = (), said: str = "") -> tuple[str, ...]:
@@ -150,9 +156,9 @@ def tell(measured: Mapping[str, float], flags: Sequence[str] = (), said: str = "
         said: by what the file joins the two, where ``stated`` is one of the flags.
     """
     terms = [
-        (CURVES[name].says.format(CURVES[name].scale * value), CURVES[name].at_one(value))
+        (CURVES[name].says.format(CURVES[name].scale * value), odds)
         for name, value in measured.items()
-        if math.isfinite(value)
+        if math.isfinite(value) and abs(odds := CURVES[name].at_one(value)) >= _NOTHING
     ]
     terms += [(f"{FLAGS[name][1]} ({said})" if name == "stated" else FLAGS[name][1], FLAGS[name][0]) for name in flags]
     return tell_terms(terms)

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
 from cadgraph.geometry.line.centreline import Branch, Centreline
 from cadgraph.model.derived import store_of
-from cadgraph.model.scene import Floats, Ints
+from cadgraph.model.scene import Floats, Ints, ranges
 
 __all__ = ["Ends", "Facing", "Tap", "extent_about", "find_tap", "gather_ends", "nearest_on", "same_place"]
 
@@ -46,8 +47,7 @@ class Ends:
     of_part: Mapping[int, tuple[int, ...]]
 
 
-@dataclass(frozen=True)
-class Facing:
+class Facing(NamedTuple):
     """Two ends that face each other.
 
     Args:
@@ -88,24 +88,20 @@ class Tap:
 
 def gather_ends(lines: Mapping[int, Centreline]) -> Ends:
     """The free ends of lines, by part."""
-    ordered = sorted(lines.items())
-    counts = [len(line.table_of_ends) for _, line in ordered]
-    table = np.concatenate([np.zeros((0, 9)), *(line.table_of_ends for _, line in ordered)])
-    of_part: dict[int, tuple[int, ...]] = {}
-    row = 0
-    for (part, _), count in zip(ordered, counts, strict=True):
-        if count:
-            of_part[part] = tuple(range(row, row + count))
-            row += count
+    parts = sorted(lines)
+    counts = np.array([lines[part].n_ends for part in parts], np.int64)
+    table = np.concatenate([np.zeros((0, 9)), *(lines[part].table_of_ends for part in parts)])
+    last = np.cumsum(counts)
+    rows = zip(parts, (last - counts).tolist(), last.tolist(), strict=True)
     return Ends(
-        part=np.repeat(np.array([part for part, _ in ordered], np.int64), counts),
-        index=np.array([k for count in counts for k in range(count)], np.int64),
+        part=np.repeat(np.array(parts, np.int64), counts),
+        index=ranges(np.zeros_like(counts), counts),
         point=table[:, :3].copy(),
         direction=table[:, 3:6].copy(),
         radius=table[:, 6].copy(),
         bore=table[:, 7].copy(),
         length=table[:, 8].copy(),
-        of_part=of_part,
+        of_part={part: tuple(range(start, stop)) for part, start, stop in rows if start < stop},
     )
 
 

@@ -305,5 +305,5 @@ def _net_of(draft: _Draft, node_of: Sequence[int]) -> Net:
         a, b = node_of[span.a], node_of[span.b]
         sure = min(span.confidence, sure_of[a], sure_of[b])
         if a != b or span.length > 0.05:
-            net.add(replace(span, a=a, b=b, confidence=sure))
+            net.add(span._replace(a=a, b=b, confidence=sure))
     return net

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from itertools import compress
-from typing import Any, Literal
+from types import MappingProxyType
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 from scipy.spatial import cKDTree
@@ -55,6 +56,7 @@ _DISC = 1.6
 _ALIKE, _HABIT, _LEAST_HABIT = 0.0004, 5, 0.001
 
 _OF_GAP = ("gap", "wide")  # what is measured of a gap
+_AT_ONCE = 32_768  # pairs of ends that are looked at at once: what stays in a processor's cache is looked at faster
 _THINKABLE = -4.0  # log-odds below which nobody would ask why a joint was not made
 
 Kind = Literal["face", "corner", "mount", "tap", "sleeve"]
@@ -83,9 +85,8 @@ class Measured(Mapping[str, float]):
         return len(self._columns)
 
 
-@dataclass(frozen=True)
-class Offer:
-    """A joint that may be made.
+class Offer(NamedTuple):
+    """A joint that may be made; large scenes have a million, so it is made as cheaply as can be.
 
     Args:
         kind: ``face`` (end to end), ``corner`` (likewise, at an angle), ``mount`` (an end at a solid), ``tap`` (an end
@@ -105,7 +106,7 @@ class Offer:
     other: int
     gap: float
     odds: float
-    measured: Mapping[str, float] = field(default_factory=dict)
+    measured: Mapping[str, float] = MappingProxyType({})
     flags: tuple[str, ...] = ()
     tap: Tap | None = None
     said: str = ""
@@ -172,19 +173,13 @@ class EndsAhead:
     """
 
     def __init__(self, ends: Ends, pairs: Ints) -> None:
-        cosine = np.einsum("ij,ij->i", ends.direction[pairs[:, 0]], ends.direction[pairs[:, 1]])
-        along = np.abs(cosine) >= -_OPPOSED
-        pairs, cosine = pairs[along], np.tile(cosine[along], 2)
-        row, other = np.concatenate([pairs, pairs[:, ::-1]]).T
-        between = ends.point[other] - ends.point[row]
-        distance = np.einsum("ij,ij->i", between, ends.direction[row])
-        off = np.linalg.norm(between - distance[:, None] * ends.direction[row], axis=1)
-        lesser = np.minimum(ends.radius[row], ends.radius[other])
-        near = np.flatnonzero((off <= _ON_AXIS * lesser) & (distance > -_BEFORE))
-        near = near[np.argsort(row[near], kind="stable")]
-        self._first = np.searchsorted(row[near], np.arange(len(ends.part) + 1))
-        self._row, self._part = other[near], ends.part[other[near]]
-        self._distance, self._alike = distance[near], cosine[near] > 0
+        blocks = [pairs[start : start + _AT_ONCE] for start in range(0, max(1, len(pairs)), _AT_ONCE)]
+        found = [_on_axis(ends, *rows.T) for rows in blocks] + [_on_axis(ends, *rows.T[::-1]) for rows in blocks]
+        row, other, distance, alike = (np.concatenate(column) for column in zip(*found, strict=True))
+        order = np.argsort(row, kind="stable")
+        self._first = np.searchsorted(row[order], np.arange(len(ends.part) + 1))
+        self._row, self._part = other[order], ends.part[other[order]]
+        self._distance, self._alike = distance[order], alike[order]
 
     def of(self, row: int) -> list[Ahead]:
         """The ends before one."""
@@ -207,6 +202,23 @@ class EndsAhead:
         other = (self._part[one][:, None] != own[pair]).all(axis=1)
         within = _lies_within(gap[pair], self._distance[one], self._alike[one])
         return np.bincount(pair[other & within], minlength=len(pairs)) > 0
+
+
+def _on_axis(ends: Ends, row: Ints, other: Ints) -> tuple[Ints, Ints, Floats, Bools]:
+    """Of pairs of ends those whose second lies on the axis of the first, not behind it.
+
+    Returns:
+        Both rows, how far ahead the second lies [m], and whether it looks the same way.
+    """
+    direction = ends.direction[row]
+    cosine = np.einsum("ij,ij->i", direction, ends.direction[other])
+    along = np.abs(cosine) >= -_OPPOSED
+    row, other, direction = row[along], other[along], direction[along]
+    between = ends.point[other] - ends.point[row]
+    distance = np.einsum("ij,ij->i", between, direction)
+    off = np.linalg.norm(between - distance[:, None] * direction, axis=1)
+    near = (off <= _ON_AXIS * np.minimum(ends.radius[row], ends.radius[other])) & (distance > -_BEFORE)
+    return row[near], other[near], distance[near], cosine[along][near] > 0
 
 
 def is_hidden(ahead: Sequence[Ahead], gap: float, own: Collection[int]) -> bool:
@@ -232,22 +244,44 @@ def offer_faces(ends: Ends, around: Surroundings, ahead: EndsAhead | None = None
     if not len(pairs):
         return []
     ahead = EndsAhead(ends, pairs) if ahead is None else ahead
-    i, j = pairs[:, 0], pairs[:, 1]
-    cosine = np.einsum("ij,ij->i", ends.direction[i], ends.direction[j])
-    measured, gap, straight = _measure(ends, i, j, cosine)
-    flags = _flags(ends, pairs, gap, straight, around, ahead)
+    cosine = _cosine(ends, pairs)
+    found = _faces(ends, pairs[cosine <= _OPPOSED], around, ahead) + _corners(ends, pairs, cosine, around.bridge)
+    return _witnessed(ends, found, around.stated) if around.stated else found
+
+
+def _cosine(ends: Ends, pairs: Ints) -> Floats:
+    """``(n,)`` of the angle between the ends of each pair."""
+    blocks = [pairs[start : start + _AT_ONCE] for start in range(0, max(1, len(pairs)), _AT_ONCE)]
+    directions = ends.direction
+    return np.concatenate([np.einsum("ij,ij->i", directions[rows[:, 0]], directions[rows[:, 1]]) for rows in blocks])
+
+
+def _faces(ends: Ends, pairs: Ints, around: Surroundings, ahead: EndsAhead) -> list[Offer]:
+    """The offers of pairs of ends that look against each other.
+
+    Args:
+        ends: of all lines.
+        pairs: ``(n, 2)`` rows.
+        around: what lies around them.
+        ahead: what lies on the axis of each end.
+    """
+    measured, gap, straight = _measure(ends, pairs)
+    pairs, gap = pairs[straight], gap[straight]
+    measured = {name: values[straight] for name, values in measured.items()}
+    flags = _flags(ends, pairs, gap, around, ahead)
     # The width of a flange says nothing of its pipe's.
     measured["size"] = np.where(flags["disc"], np.nan, measured["size"])
     odds = add_up("face", measured, {name: holds.astype(float) for name, holds in flags.items()})
-    flags["habit"] = _habitual(gap, straight & (odds > 1.0))
+    flags["habit"] = _habitual(gap, odds > 1.0)
     odds = odds + flags["habit"] * FLAGS["habit"][0]
-    thinkable = straight & ((odds > _THINKABLE) | _are_stated(ends, pairs, around.stated))
+    thinkable = (odds > _THINKABLE) | _are_stated(ends, pairs, around.stated)
     quantities = {name: values[thinkable] for name, values in measured.items()}
-    holding = {name: holds[thinkable] for name, holds in flags.items()}
-    found = _faces(pairs[thinkable], gap[thinkable], odds[thinkable], quantities, holding)
-    corners = _corners(ends, i, j, cosine, around.bridge) & ~straight
-    found += [_corner(pairs, k, measured) for k in np.flatnonzero(corners).tolist()]
-    return _witnessed(ends, found, around.stated) if around.stated else found
+    rows = zip(pairs[thinkable].tolist(), gap[thinkable].tolist(), odds[thinkable].tolist(), strict=True)
+    holding = zip(*(holds[thinkable].tolist() for holds in flags.values()), strict=True)
+    return [
+        Offer("face", row, other, wide, sure, Measured(quantities, k), tuple(compress(flags, holds)))
+        for k, (((row, other), wide, sure), holds) in enumerate(zip(rows, holding, strict=True))
+    ]
 
 
 def _are_stated(ends: Ends, pairs: Ints, stated: Stated) -> Bools:
@@ -279,11 +313,11 @@ def bear_witness(offer: Offer, ends: Ends, other: int, stated: Stated) -> Offer:
         n_ends = len(ends.of_part.get(part, ())), len(ends.of_part.get(other, ()))
         denied = stated.is_complete(part, n_ends[0]) and stated.is_complete(other, n_ends[1])
         flags = (*offer.flags, "unstated") if denied else offer.flags
-        return replace(offer, odds=offer.odds + FLAGS["unstated"][0], flags=flags) if denied else offer
+        return offer._replace(odds=offer.odds + FLAGS["unstated"][0], flags=flags) if denied else offer
     if "hidden" in offer.flags:
         # The file joins them through what lies between.
         return offer
-    return _across(replace(offer, odds=offer.odds + FLAGS["stated"][0], flags=(*offer.flags, "stated"), said=said))
+    return _across(offer._replace(odds=offer.odds + FLAGS["stated"][0], flags=(*offer.flags, "stated"), said=said))
 
 
 def _across(offer: Offer) -> Offer:
@@ -296,23 +330,19 @@ def _across(offer: Offer) -> Offer:
         return offer
     left = {name: value for name, value in offer.measured.items() if name not in _OF_GAP}
     flags = tuple(name for name in offer.flags if name != "over")
-    return replace(offer, odds=offer.odds + gain, measured={"far": gap, **left}, flags=flags)
+    return offer._replace(odds=offer.odds + gain, measured={"far": gap, **left}, flags=flags)
 
 
-def _flags(
-    ends: Ends, pairs: Ints, gap: Floats, straight: Bools, around: Surroundings, ahead: EndsAhead
-) -> dict[str, Bools]:
-    """What holds of each pair of ends, but for habit.
+def _flags(ends: Ends, pairs: Ints, gap: Floats, around: Surroundings, ahead: EndsAhead) -> dict[str, Bools]:
+    """What holds of each pair of ends that face each other, but for habit.
 
     Args:
         ends: of all lines.
         pairs: ``(n, 2)`` rows.
         gap: ``(n,)`` [m].
-        straight: ``(n,)`` whether they face.
         around: what lies around them.
         ahead: what lies on the axis of each end.
     """
-    i, j = pairs[:, 0], pairs[:, 1]
     parts = np.sort(ends.part[pairs], axis=1)
 
     def among(known: Collection[tuple[int, int]], possible: Bools) -> Bools:
@@ -320,37 +350,22 @@ def _flags(
         found[possible] = [(a, b) in known for a, b in parts[possible].tolist()]
         return found
 
-    hidden = straight & (gap > 2 * _BEFORE)
+    hidden = gap > 2 * _BEFORE
     hidden[hidden] = ahead.hide(pairs[hidden], gap[hidden], parts[hidden])
     return {
         "hidden": hidden,
-        "disc": _is_disc(ends, i) | _is_disc(ends, j),
+        "disc": _is_disc(ends, pairs[:, 0]) | _is_disc(ends, pairs[:, 1]),
         "blocked": among(around.blocked, gap > min(_BESIDE, around.bridge)),
         "over": gap > around.bridge + 1e-9,
         "bolted": among(around.bolted, gap > _OVERLAP),
     }
 
 
-def _faces(
-    pairs: Ints, gap: Floats, odds: Floats, measured: Mapping[str, Floats], flags: Mapping[str, Bools]
-) -> list[Offer]:
-    """The offers of pairs of ends that face each other."""
-    rows = zip(pairs.tolist(), gap.tolist(), odds.tolist(), strict=True)
-    holding = zip(*(holds.tolist() for holds in flags.values()), strict=True)
-    return [
-        Offer("face", row, other, wide, sure, Measured(measured, k), tuple(compress(flags, holds)))
-        for k, (((row, other), wide, sure), holds) in enumerate(zip(rows, holding, strict=True))
-    ]
-
-
-def _corner(pairs: Ints, k: int, measured: Mapping[str, Floats]) -> Offer:
-    known = {"size": float(measured["size"][k])}
-    odds = float(add_up("corner", {"size": measured["size"][k : k + 1]})[0]) + float(CURVES["gap"](0.0))
-    return Offer("corner", int(pairs[k, 0]), int(pairs[k, 1]), 0.0, odds, known)
-
-
-def _measure(ends: Ends, i: Ints, j: Ints, cosine: Floats) -> tuple[dict[str, Floats], Floats, Bools]:
-    """The quantities of pairs of ends, the gap from the first to the second [m], and whether they face at all."""
+def _measure(ends: Ends, pairs: Ints) -> tuple[dict[str, Floats], Floats, Bools]:
+    """The quantities of pairs of ends that look against each other, the gap from the first to the second [m], and
+    whether they face each other.
+    """
+    i, j = pairs.T
     between = ends.point[j] - ends.point[i]
     axis = ends.direction[i] - ends.direction[j]
     axis /= np.maximum(np.linalg.norm(axis, axis=1, keepdims=True), 1e-12)
@@ -365,11 +380,11 @@ def _measure(ends: Ends, i: Ints, j: Ints, cosine: Floats) -> tuple[dict[str, Fl
         "gap": np.where(inside, np.nan, np.maximum(gap, 0.0)),
         "wide": np.where(gap > 0, gap / lesser, np.nan),
         "depth": np.where(inside, (-gap - _OVERLAP) / shorter, np.nan),
-        "angle": np.degrees(np.arccos(np.clip(-cosine, -1, 1))),
+        "angle": np.degrees(np.arccos(np.clip(-_cosine(ends, pairs), -1, 1))),
         "offset": share,
         "size": lesser / greater,
     }
-    faces = (cosine <= _OPPOSED) & (off <= np.maximum(_OFFSET * lesser, _LEAST_OFFSET))
+    faces = off <= np.maximum(_OFFSET * lesser, _LEAST_OFFSET)
     return measured, gap, faces & (-gap <= _OVERLAP + np.minimum(1.03 * shorter, _DEEPEST * greater))
 
 
@@ -437,8 +452,14 @@ def ends_about(ends: Ends, around: Surroundings) -> Ints:
     return _distinct([near, wider[apart & joined[wider].any(axis=1)]])
 
 
-def _corners(ends: Ends, i: Ints, j: Ints, cosine: Floats, bridge: float) -> Bools:
-    """Whether two ends of one size meet at an angle: mitred or simply run into each other."""
+def _corners(ends: Ends, pairs: Ints, cosine: Floats, bridge: float) -> list[Offer]:
+    """The offers of pairs of ends of one size that meet at an angle: mitred or simply run into each other."""
+    # What is sooner told goes first: few are left then.
+    oblique = (cosine > _OPPOSED) & (cosine < 0.5)
+    (i, j), cosine = pairs[oblique].T, cosine[oblique]
+    greater, lesser = np.maximum(ends.radius[i], ends.radius[j]), np.minimum(ends.radius[i], ends.radius[j])
+    equal = (lesser >= _EQUAL_SIZE * greater) & (np.minimum(ends.length[i], ends.length[j]) > 2 * greater)
+    i, j, cosine, greater, lesser = (values[equal] for values in (i, j, cosine, greater, lesser))
     between = ends.point[j] - ends.point[i]
     di, dj = ends.direction[i], ends.direction[j]
     det = np.maximum(1 - cosine**2, 1e-9)
@@ -446,17 +467,15 @@ def _corners(ends: Ends, i: Ints, j: Ints, cosine: Floats, bridge: float) -> Boo
     s = (np.einsum("ij,ij->i", between, di) - cosine * np.einsum("ij,ij->i", between, dj)) / det
     t = (cosine * np.einsum("ij,ij->i", between, di) - np.einsum("ij,ij->i", between, dj)) / det
     offset = np.linalg.norm(between + t[:, None] * dj - s[:, None] * di, axis=1)
-    greater, lesser = np.maximum(ends.radius[i], ends.radius[j]), np.minimum(ends.radius[i], ends.radius[j])
     reach = _CORNER_REACH * greater + bridge
-    return np.asarray(
-        (cosine > _OPPOSED)
-        & (cosine < 0.5)
-        & (offset <= _CORNER * lesser)
-        & (np.abs(s) <= reach)
-        & (np.abs(t) <= reach)
-        & (lesser >= _EQUAL_SIZE * greater)
-        & (np.minimum(ends.length[i], ends.length[j]) > 2 * greater)
-    )
+    meet = (offset <= _CORNER * lesser) & (np.abs(s) <= reach) & (np.abs(t) <= reach)
+    rows = zip(i[meet].tolist(), j[meet].tolist(), (lesser / greater)[meet].tolist(), strict=True)
+    return [_corner(row, other, size) for row, other, size in rows]
+
+
+def _corner(row: int, other: int, size: float) -> Offer:
+    odds = float(add_up("corner", {"size": np.array([size])})[0]) + float(CURVES["gap"](0.0))
+    return Offer("corner", row, other, 0.0, odds, {"size": size})
 
 
 def offer_far_mount(row: int, solid: int, gap: float, off: float, radius: float, said: str) -> Offer:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy as np
 
@@ -15,9 +16,8 @@ __all__ = ["Net", "Span", "join_spans", "length_of"]
 _SAME_PLACE = 1e-6  # points nearer to each other are one [m]
 
 
-@dataclass(frozen=True, eq=False)
-class Span:
-    """A piece of line between two nodes.
+class Span(NamedTuple):
+    """A piece of line between two nodes; large scenes have millions, so it is made as cheaply as can be.
 
     Args:
         a: node that it begins at.
@@ -143,7 +143,7 @@ class Net:
     def move(self, number: int, old: int, new: int) -> None:
         """Lets the end of a span that is at one node be at another."""
         span = self.remove(number)
-        moved = replace(span, a=new) if span.a == old else replace(span, b=new)
+        moved = span._replace(a=new) if span.a == old else span._replace(b=new)
         self.spans[number] = moved
         self.at.setdefault(moved.a, []).append(number)
         self.at.setdefault(moved.b, []).append(number)
