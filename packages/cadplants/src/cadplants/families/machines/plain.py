@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from cadplants.families.machines.plain_circulators import PLAIN_SMALL
 from cadplants.families.machines.plain_compressors import PLAIN_COMPRESSORS
 from cadplants.families.machines.plain_hygienic import PLAIN_HYGIENIC
 from cadplants.families.machines.plain_pumps import PLAIN_PUMPS
-from cadplants.families.machines.plain_small import PLAIN_SMALL
 from cadplants.families.machines.plain_upright import PLAIN_UPRIGHT
 from cadplants.model.family import Family
 

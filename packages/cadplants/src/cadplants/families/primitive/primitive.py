@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+from cadplants.families.primitive.asset_fittings import KIT_FITTINGS
+from cadplants.families.primitive.asset_tank import KIT_TANKS
+from cadplants.families.primitive.asset_valves import KIT_VALVES
 from cadplants.families.primitive.fittings import PRIMITIVE_FITTINGS
 from cadplants.families.primitive.instruments import PRIMITIVE_INSTRUMENTS
-from cadplants.families.primitive.kit_fittings import KIT_FITTINGS
-from cadplants.families.primitive.kit_tank import KIT_TANKS
-from cadplants.families.primitive.kit_valves import KIT_VALVES
 from cadplants.families.primitive.machines import PRIMITIVE_MACHINES
 from cadplants.families.primitive.pieces import PRIMITIVE_PIECES
 from cadplants.families.primitive.pumps import PRIMITIVE_PUMPS

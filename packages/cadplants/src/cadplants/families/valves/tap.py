@@ -9,7 +9,7 @@ from cadplants.builder.draws import of_form
 from cadplants.builder.melting import Melting, Piece, put_pieces
 from cadplants.builder.params import Params, among, between, chance, given, nested
 from cadplants.builder.table import Table, outline
-from cadplants.families.valves.kit_parts import Grip, Rim
+from cadplants.families.valves.asset_parts import Grip, Rim
 from cadplants.families.valves.parts import bend
 from cadplants.model.family import Model
 from cadplants.model.plant import Turning

@@ -9,7 +9,7 @@ from cadplants.builder.draws import of_form
 from cadplants.builder.melting import FACETS, FACETS_TEXT, Melting, Piece, put_pieces, sides_of
 from cadplants.builder.params import among, between, chance, nested
 from cadplants.builder.table import Table, outline
-from cadplants.families.valves.kit_parts import Bonnet, FlangedBody, Grip, Rim, screwed_body
+from cadplants.families.valves.asset_parts import Bonnet, FlangedBody, Grip, Rim, screwed_body
 from cadplants.model.family import Family, Model
 from cadplants.model.plant import Turning
 from cadplants.model.standards import sizes_between

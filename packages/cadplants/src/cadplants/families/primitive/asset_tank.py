@@ -9,7 +9,7 @@ from cadplants.builder.device import Device, families_of
 from cadplants.builder.draws import made
 from cadplants.builder.params import Params, among, between, chance, nested, several, whole
 from cadplants.builder.table import Table
-from cadplants.families.primitive.kit import Look
+from cadplants.families.primitive.asset_ends import Look
 from cadplants.families.primitive.shape import disc, dish, lying
 from cadplants.model.family import Family, Model, Port
 from cadplants.model.standards import PIPES

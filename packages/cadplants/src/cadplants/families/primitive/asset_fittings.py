@@ -13,7 +13,7 @@ from cadplants.builder.params import Params, among, between, chance, each, given
 from cadplants.builder.table import Table
 from cadplants.families.piping.hygienic import Band
 from cadplants.families.piping.shape import crossing
-from cadplants.families.primitive.kit import Collar, Ends, Ferrule, Look
+from cadplants.families.primitive.asset_ends import Collar, Ends, Ferrule, Look
 from cadplants.families.primitive.shape import disc, lying
 from cadplants.model.family import Family, Model
 from cadplants.model.standards import PIPES, SIZES, smaller
