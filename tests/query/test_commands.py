@@ -4,6 +4,7 @@ import os
 import pytest
 
 from cadgraph.cli import main
+from cadgraph.model.graph import SceneGraph
 from networks import chain, network, pumping, unit
 
 
@@ -71,6 +72,42 @@ def test_every_answer_says_that_the_graph_lacks_corrections(asked, corrected, ca
     _, out, err = run(capsys, asked[0], corrected, *asked[1:])
     assert "corrections were made that this graph" in out
     assert "corrections were made that this graph lacks" in err
+
+
+@pytest.fixture
+def outdated(tmp_path):
+    """A folder with a graph whose source was replaced after it was built."""
+    (tmp_path / "plant.usda").write_text("the plant as it is now")
+    graph = pumping()
+    document = graph.document
+    source = document.source.model_copy(update={"path": "plant.usda", "sha256": "0" * 64})
+    SceneGraph(document.model_copy(update={"source": source})).save(tmp_path)
+    earlier = (tmp_path / "plant.usda").stat().st_mtime - 10
+    os.utime(tmp_path / "graph.json", (earlier, earlier))
+    return tmp_path
+
+
+def test_no_isolation_is_sure_where_the_source_changed_since(outdated, capsys):
+    code, out, err = run(capsys, "isolate", outdated, "P-001", "--strict", "--json")
+    told = json.loads(out)
+    assert code == 1
+    assert told["isolated"] is None
+    assert told["doubts"][0]["at"] == "graph"
+    assert "plant.usda: changed since the graph was built" in told["doubts"][0]["text"]
+    assert "mind: " in err
+    (outdated / "plant.usda").unlink()
+    code, out, err = run(capsys, "isolate", outdated, "P-001", "--json")
+    assert not any(doubt["at"] == "graph" for doubt in json.loads(out)["doubts"])
+    assert err == ""
+
+
+@pytest.mark.parametrize(
+    "asked", [("what-if", "V-001"), ("find", "--kind", "gate valve"), ("overview",), ("describe", "V-001")]
+)
+def test_every_tool_says_that_the_source_changed_since(asked, outdated, capsys):
+    _, out, err = run(capsys, asked[0], outdated, *asked[1:])
+    assert "the file of the scene changed since this graph was built" in out
+    assert "plant.usda: changed since the graph was built" in err
 
 
 def test_line_list_says_it_beside_what_may_be_read_by_others(corrected, capsys):

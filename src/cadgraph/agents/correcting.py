@@ -15,12 +15,12 @@ from cadgraph._io.run_folder import refuse_foreign, tidy
 from cadgraph.agents.answer import Answer, AskError, cell, page_of
 from cadgraph.agents.plant import Plant
 from cadgraph.errors import CadGraphError, OutputError
-from cadgraph.load.source_file import find_source
 from cadgraph.model.given_labels import split_label
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.labels import CorrectedEvidence
 from cadgraph.model.records import Connected, Part, Unit
 from cadgraph.model.scene import Scene
+from cadgraph.model.source_file import find_source
 from cadgraph.model.vocabulary import spell_label
 from cadgraph.serve.saving import Saver
 from cadgraph.session.reopen import config_of, reopen

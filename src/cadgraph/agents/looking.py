@@ -91,6 +91,7 @@ def _trust_of(plant: Plant) -> dict[str, Any]:
         "diagnostics": dict(summary.diagnostics),
         "warnings": list(summary.warnings),
         "behind_corrections": plant.graph.lacks_corrections,
+        "changed_source": plant.graph.changed_source,
     }
 
 
@@ -110,6 +111,8 @@ def _lacks_lines(plant: Plant, unit: str) -> bool:
 
 def _trust_rows(trust: Mapping[str, Any]) -> list[str]:
     told = ["trust: corrections were made that this graph may lack: build it again"] * trust["behind_corrections"]
+    if trust["changed_source"]:
+        told.append("trust: the file of the scene changed since this graph was built: build it again")
     told.append(f"trust: {trust['parts_unlabelled']} parts unlabelled, {trust['labels_only_likely']} only likely")
     for key, words in (
         ("units_without_line", "no line found at"),

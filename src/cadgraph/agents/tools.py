@@ -11,7 +11,7 @@ from typing import Annotated, Any, get_args, get_origin, get_type_hints
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, create_model
 
 from cadgraph.agents import approaching, asking_sql, describing, looking, measuring, planning, walking
-from cadgraph.agents.answer import BEHIND, Answer, AskError, among, cell, did_you_mean
+from cadgraph.agents.answer import BEHIND, CHANGED, Answer, AskError, among, cell, did_you_mean
 from cadgraph.agents.plant import Plant
 
 __all__ = ["TOOLS", "Tool", "tool_named"]
@@ -65,9 +65,10 @@ class Tool:
             CadGraphError: the arguments are wrong (:class:`~cadgraph.errors.AskError`), or there is no answer.
         """
         answer = self.run(plant, **self.checked(arguments))
-        if not plant.graph.lacks_corrections:
-            return answer
-        return Answer(f"{answer.text}\n{BEHIND}", {**answer.values, "behind_corrections": True})
+        behind, changed = plant.graph.lacks_corrections, plant.graph.changed_source
+        text = "\n".join((answer.text, *[BEHIND] * behind, *[CHANGED] * bool(changed)))
+        minded = {"behind_corrections": True} if behind else {}
+        return Answer(text, {**answer.values, **minded, **({"changed_source": changed} if changed else {})})
 
     def checked(self, arguments: Mapping[str, Any]) -> dict[str, Any]:
         """The arguments that the function takes, of those that anybody gave.

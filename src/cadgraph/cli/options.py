@@ -13,7 +13,8 @@ import typer
 from rich.markup import escape
 
 from cadgraph._io.limits import FLOWS, read_text_within
-from cadgraph.cli.screen import err
+from cadgraph._io.text import printable
+from cadgraph.cli.screen import REMEDY, err
 from cadgraph.config import Config, read_config
 from cadgraph.errors import CadGraphError
 
@@ -83,17 +84,23 @@ StrictOption = Annotated[
 _GRAPH = "What 'cadgraph build' wrote, or a graph.json."
 
 
-def _heed_corrections(graph: Path) -> Path:
-    """Says beside every answer that the graph it is given from lacks corrections."""
-    from cadgraph._io.manifest import LACKING, behind
+def _heed_changes(graph: Path) -> Path:
+    """Says beside every answer that the graph it is given from lacks corrections, or that its source has changed."""
+    from cadgraph._io.manifest import GRAPH_FILE, LACKING, behind
+    from cadgraph._io.staging import result_path
+    from cadgraph.model.source_file import changed_since, source_at_head
 
     with suppress(CadGraphError):  # what is wrong with the graph is told when it is read
         if behind(graph if graph.is_dir() else graph.parent):
             err.print(f"mind: {escape(str(graph))}: {LACKING}")
+        file = result_path(graph / GRAPH_FILE) if graph.is_dir() else graph
+        source = source_at_head(file)
+        if source is not None and (changed := changed_since(source, file)):
+            err.print(f"mind: {escape(printable(changed))}; {REMEDY}")
     return graph
 
 
-GraphArgument = Annotated[Path, typer.Argument(metavar="FOLDER", help=_GRAPH, callback=_heed_corrections)]
+GraphArgument = Annotated[Path, typer.Argument(metavar="FOLDER", help=_GRAPH, callback=_heed_changes)]
 CorrectedArgument = Annotated[Path, typer.Argument(metavar="FOLDER", help=_GRAPH)]
 """Of commands that look at corrections themselves."""
 

@@ -59,7 +59,7 @@ def show_film(film: Film, process: Process, source: Path | None, folder: Path) -
     from cadgraph._io.run_folder import coming_into
     from cadgraph.config import restore_config
     from cadgraph.load import load
-    from cadgraph.load.source_file import find_source
+    from cadgraph.model.source_file import find_source
     from cadgraph.simulate.play.showing import show
 
     graph = process.network.graph

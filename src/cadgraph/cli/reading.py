@@ -94,7 +94,7 @@ def _state(graph: SceneGraph, path: Path) -> list[str]:
         FormatError: the manifest is damaged.
     """
     from cadgraph._io.manifest import GRAPH_FILE, behind, changed_by_others, of_an_earlier_graph
-    from cadgraph.load.source_file import changed_source
+    from cadgraph.model.source_file import changed_source
 
     folder = path if path.is_dir() else path.parent
     changed = graph.spoilt_shards()

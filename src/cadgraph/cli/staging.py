@@ -28,8 +28,8 @@ def write_stage_beside(graph: Path, source: Path | None, needles: bool) -> dict[
         LoadError: the source that was given is not the graph's; or it can't be read any more.
         OutputError: a file can't be written.
     """
-    from cadgraph.load.source_file import find_source
     from cadgraph.model.graph import SceneGraph
+    from cadgraph.model.source_file import find_source
     from cadgraph.simulate.stage.writing import write_stage
 
     folder = graph if graph.is_dir() else graph.parent

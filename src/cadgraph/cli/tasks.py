@@ -41,8 +41,8 @@ def tasks(
     from cadgraph.hydraulics.process import Process
     from cadgraph.hydraulics.settings import SCENARIO
     from cadgraph.load import load
-    from cadgraph.load.source_file import find_source
     from cadgraph.model.graph import SceneGraph
+    from cadgraph.model.source_file import find_source
     from cadgraph.simulate.tasks.choosing import make_tasks
 
     plant = SceneGraph.load(graph)

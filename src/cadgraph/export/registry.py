@@ -16,9 +16,9 @@ from cadgraph.export.labels import write_labels
 from cadgraph.export.nodelink import write_nodelink
 from cadgraph.export.source import refuse_source, scene_of
 from cadgraph.export.tables import write_tables
-from cadgraph.load.source_file import find_source
 from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.graph import SceneGraph
+from cadgraph.model.source_file import find_source
 
 __all__ = ["Format", "Written", "export_graph", "formats", "write_export"]
 

@@ -49,6 +49,7 @@ from cadgraph.model.records import (
     Unit,
 )
 from cadgraph.model.shards import ABOVE, Index, cut, is_cut
+from cadgraph.model.source_file import changed_since
 
 if TYPE_CHECKING:
     import networkx
@@ -127,6 +128,13 @@ class SceneGraph:
             return behind(self._folder)
         except FormatError:
             return True
+
+    @property
+    def changed_source(self) -> str:
+        """How the file that it was made from has changed since, in words; empty where it hasn't, or isn't found, or the
+        graph was not read from a file. Looked up anew each time.
+        """
+        return "" if self._folder is None else changed_since(self.source, result_path(self._folder / GRAPH_FILE))
 
     @property
     def site(self) -> Site:

@@ -92,8 +92,12 @@ def open_sides(network: Network, places: Collection[str], about: About = "follow
 
 
 def unshown(network: Network) -> tuple[Doubt, ...]:
-    """The doubt that stands against every answer of a graph to which corrections were made that it doesn't show."""
-    return (Doubt("", "graph", LACKING),) if network.graph.lacks_corrections else ()
+    """The doubts that stand against every answer of a graph to which corrections were made that it doesn't show, or
+    whose source has changed since.
+    """
+    graph = network.graph
+    told = (LACKING if graph.lacks_corrections else "", graph.changed_source)
+    return tuple(Doubt("", "graph", text) for text in told if text)
 
 
 def few_ports(network: Network, place: str) -> tuple[int, int] | None:

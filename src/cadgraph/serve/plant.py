@@ -17,10 +17,10 @@ from cadgraph.draw.web.content import shown_meshes
 from cadgraph.draw.web.packing import PackedScene, pack_scene
 from cadgraph.errors import CadGraphError, FormatError, LabelError, LoadError, MissingExtra, OutputError
 from cadgraph.load import load
-from cadgraph.load.source_file import find_source
 from cadgraph.model.corrections import CORRECTIONS
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.scene import Scene
+from cadgraph.model.source_file import find_source
 from cadgraph.serve.boxes import boxes_of
 from cadgraph.serve.order import Order
 from cadgraph.serve.saving import Saver

@@ -13,11 +13,11 @@ from cadgraph.errors import LabelError, LoadError
 from cadgraph.geometry.mesh.properties import measure
 from cadgraph.geometry.shape.repeats import find_shapes
 from cadgraph.load import load
-from cadgraph.load.source_file import find_source
 from cadgraph.model.catalog import Catalog, Entry
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Part
 from cadgraph.model.scene import Scene
+from cadgraph.model.source_file import find_source
 from cadgraph.pipeline import analyse
 from cadgraph.session.reopen import config_of
 from cadgraph.stages.preprocess import prepare_scene

@@ -10,12 +10,12 @@ from typing import Any, Literal
 from cadgraph._io.progress import Progress, quiet
 from cadgraph._io.results import new_results
 from cadgraph._io.run_folder import results_folder
-from cadgraph.load.source_file import find_source
 from cadgraph.model.corrections import read_history
 from cadgraph.model.edits import Correction, Tag
 from cadgraph.model.given_labels import split_label
 from cadgraph.model.graph import SceneGraph, shards_in
 from cadgraph.model.records import Part
+from cadgraph.model.source_file import find_source
 from cadgraph.model.vocabulary import Vocabulary
 from cadgraph.session.reopen import config_of, reopen
 from cadgraph.session.requests import EditRequest

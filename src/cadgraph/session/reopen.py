@@ -11,12 +11,12 @@ from cadgraph.errors import FormatError
 from cadgraph.labelers.base import AskingLabeler, Labeler
 from cadgraph.labelers.former import FormerLabeler, former_labeler
 from cadgraph.load import load
-from cadgraph.load.source_file import find_source
 from cadgraph.model.corrections import CorrectionsFile
 from cadgraph.model.given_labels import GivenLabel
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.labels import GivenEvidence
 from cadgraph.model.scene import Scene
+from cadgraph.model.source_file import find_source
 from cadgraph.model.vocabulary import Vocabulary
 from cadgraph.session.run import Clock, Outcome, check_layers, check_target, write_results
 from cadgraph.session.session import Session
@@ -79,7 +79,7 @@ def reopen(
     Args:
         graph: finished.
         target: the folder that it lies in; with its corrections.
-        source: the scene's file, see :func:`~cadgraph.load.source_file.find_source`.
+        source: the scene's file, see :func:`~cadgraph.model.source_file.find_source`.
         config: its settings.
         progress: called with the name of a stage and the share of it that is done.
         scene: what ``load`` makes of the source, if it is at hand.

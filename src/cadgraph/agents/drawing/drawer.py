@@ -24,9 +24,9 @@ from cadgraph.draw.render.picture import Paint, Renderer
 from cadgraph.draw.render.views import three_quarter_view
 from cadgraph.errors import LoadError
 from cadgraph.load import load
-from cadgraph.load.source_file import find_source
 from cadgraph.model.records import Point, SourceRecord
 from cadgraph.model.scene import Ints, Scene
+from cadgraph.model.source_file import find_source
 from cadgraph.stages.preprocess import prepare_scene
 
 __all__ = ["Drawer", "read_scene"]

@@ -1,14 +1,16 @@
 """Where the file of a graph is looked for."""
 
 import hashlib
+import json
+import os
 
 import pytest
 
 from cadgraph.config import Config, LoadConfig
 from cadgraph.errors import LoadError
 from cadgraph.load import load
-from cadgraph.load.source_file import find_source
 from cadgraph.model.records import SourceRecord
+from cadgraph.model.source_file import changed_since, find_source, source_at_head
 from cadgraph.pipeline import build
 from cadgraph.session.session import Session
 
@@ -44,6 +46,55 @@ def test_another_file_of_that_name_is_passed_over_and_told_where_there_is_none_e
     assert find_source(source, folder) == folder / "plant.usda"
     with pytest.raises(LoadError, match="changed since"):
         find_source(source, folder, tmp_path / "plant.usda")
+
+
+@pytest.fixture
+def graph(folder):
+    """A graph's file, ten seconds younger than the source beside it."""
+    file = folder / "graph.json"
+    file.write_text(json.dumps({"format": "cadgraph", "source": {"path": "plant.usda", "sha256": RIGHT}}))
+    (folder / "plant.usda").write_text(TEXT)
+    later = (folder / "plant.usda").stat().st_mtime + 10
+    os.utime(file, (later, later))
+    return file
+
+
+def rewritten(file, text, graph):
+    file.write_text(text)
+    older = file.stat().st_mtime - 10
+    os.utime(graph, (older, older))
+
+
+def test_a_source_that_changed_after_its_graph_was_built_is_told(graph):
+    source, file = source_at_head(graph), graph.parent / "plant.usda"
+    assert (source.path, source.sha256) == ("plant.usda", RIGHT)
+    assert changed_since(source, graph) == ""
+    rewritten(file, TEXT, graph)  # younger, but the same
+    assert changed_since(source, graph) == ""
+    rewritten(file, "another plant", graph)
+    assert changed_since(source, graph).startswith(f"{file}: changed since the graph was built, or another file")
+    file.unlink()
+    assert changed_since(source, graph) == ""
+
+
+def test_a_file_that_a_source_refers_to_and_that_changed_or_went_is_told(graph):
+    part = graph.parent / "part.usda"
+    source = SourceRecord(path="plant.usda", sha256=RIGHT, referred=(("part.usda", RIGHT),))
+    assert changed_since(source, graph) == f"{part}: is not there any more, and plant.usda refers to it"
+    rewritten(part, "another part", graph)
+    assert changed_since(source, graph) == f"{part}: changed since the graph was built, and plant.usda refers to it"
+    rewritten(part, TEXT, graph)
+    assert changed_since(source, graph) == ""
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["", "{", '{"nodes": []}', '{"source": 3}', '{"source": {"n_meshes": -1}}', '{"source": ' + "[" * 100_000],
+)
+def test_no_source_is_read_from_what_says_none(text, tmp_path):
+    (tmp_path / "graph.json").write_text(text)
+    assert source_at_head(tmp_path / "graph.json") is None
+    assert source_at_head(tmp_path / "nothing.json") is None
 
 
 BLOCK = """#usda 1.0

@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+import json
+import re
 from collections.abc import Iterator
 from contextlib import suppress
+from functools import lru_cache
 from pathlib import Path
 
 from cadgraph._io.digest import sha256_of
 from cadgraph.errors import LoadError
 from cadgraph.model.records import SourceRecord
 
-__all__ = ["changed_source", "find_source"]
+__all__ = ["changed_since", "changed_source", "find_source", "source_at_head"]
+
+_HEAD = 1 << 20  # bytes at the beginning of a graph.json that its source is looked for in
 
 
 def find_source(
@@ -59,6 +64,44 @@ def changed_source(source: SourceRecord, folder: Path) -> str:
     return ""
 
 
+def changed_since(source: SourceRecord, graph: Path) -> str:
+    """Likewise, at the cost of looking at the times of files: one that is no younger than the graph isn't read.
+
+    Args:
+        source: of the graph.
+        graph: its file.
+    """
+    with suppress(OSError, ValueError, LoadError):
+        born = graph.stat().st_mtime_ns
+        places = dict.fromkeys(_places(Path(source.path), graph.parent)) if source.path else ()
+        for path in (path for path in places if _is_there(path, "")):
+            if any(
+                _is_younger(path.parent / name, born) for name in (path.name, *(name for name, _ in source.referred))
+            ):
+                return changed_source(source, graph.parent)
+    return ""
+
+
+def source_at_head(graph: Path) -> SourceRecord | None:
+    """What a ``graph.json`` says of its source, read from its first lines alone; None where it doesn't stand there."""
+    with suppress(OSError, ValueError, RecursionError):
+        with graph.open("rb") as opened:
+            head = opened.read(_HEAD).decode(errors="replace")
+        found = re.search(r'"source"\s*:\s*', head)
+        if found is not None:
+            return SourceRecord.model_validate(json.JSONDecoder().raw_decode(head, found.end())[0])
+    return None
+
+
+def _is_younger(path: Path, born: int) -> bool:
+    """Whether a file was written, or put in its place, after a graph [ns]; also where it isn't there any more."""
+    try:
+        times = path.stat()
+    except OSError:
+        return True
+    return max(times.st_mtime_ns, times.st_ctime_ns) > born
+
+
 def _difference(path: Path, source: SourceRecord, option: str) -> str:
     """How a file differs from the one that a graph was made from; empty where it doesn't."""
     digest = _digest(path, option) if source.sha256 else ""
@@ -85,9 +128,16 @@ def _is_there(path: Path, option: str) -> bool:
 
 def _digest(path: Path, option: str) -> str:
     try:
-        return sha256_of(path)
+        times = path.stat()
+        return _digest_of(path, times.st_mtime_ns, times.st_ctime_ns, times.st_size)
     except OSError as error:
         raise _unreadable(path, error, option) from error
+
+
+@lru_cache(maxsize=64)
+def _digest_of(path: Path, *_: int) -> str:
+    """The digest of a file of these times and this size: whoever asks many things of a graph has it read once."""
+    return sha256_of(path)
 
 
 def _unreadable(path: Path, error: Exception, option: str) -> LoadError:
