@@ -87,6 +87,15 @@ def test_a_file_that_a_source_refers_to_and_that_changed_or_went_is_told(graph):
     assert changed_since(source, graph) == ""
 
 
+@pytest.mark.parametrize("path", ["//host/share/plant.usda", r"\\host\share\plant.usda"])
+def test_no_other_machine_is_called_for_what_a_graph_says_of_its_source(graph, path, monkeypatch):
+    asked = []
+    monkeypatch.setattr("cadgraph.model.source_file._is_there", lambda *where: asked.append(where))
+    assert changed_since(SourceRecord(path=path, sha256=RIGHT), graph) == ""
+    assert changed_since(SourceRecord(path="plant.usda", sha256=RIGHT, referred=((path, RIGHT),)), graph) == ""
+    assert asked == []
+
+
 @pytest.mark.parametrize(
     "text",
     ["", "{", '{"nodes": []}', '{"source": 3}', '{"source": {"n_meshes": -1}}', '{"source": ' + "[" * 100_000],

@@ -67,10 +67,15 @@ def changed_source(source: SourceRecord, folder: Path) -> str:
 def changed_since(source: SourceRecord, graph: Path) -> str:
     """Likewise, at the cost of looking at the times of files: one that is no younger than the graph isn't read.
 
+    It is asked with every answer, so that a graph of anybody must not make this machine call another one: what lies on
+    another machine (``//host/share``) is not looked at.
+
     Args:
         source: of the graph.
         graph: its file.
     """
+    if any(name.replace("\\", "/").startswith("//") for name in (source.path, *(name for name, _ in source.referred))):
+        return ""
     with suppress(OSError, ValueError, LoadError):
         born = graph.stat().st_mtime_ns
         places = dict.fromkeys(_places(Path(source.path), graph.parent)) if source.path else ()
