@@ -17,18 +17,9 @@ from cadgraph._io.text import printable, shortened
 from cadgraph.errors import AskError
 
 __all__ = [
-    "BEHIND",
-    "BUDGET",
-    "CHANGED",
-    "Answer",
-    "AskError",
-    "among",
-    "cell",
-    "did_you_mean",
-    "page_of",
-    "row",
+    "BEHIND", "BUDGET", "CHANGED", "OUTDATED", "Answer", "AskError", "among", "cell", "did_you_mean", "page_of", "row",
     "tokens",
-]
+]  # fmt: skip
 
 BUDGET = 1500
 """Most tokens of an answer, as :func:`tokens` counts them."""
@@ -36,7 +27,8 @@ BUDGET = 1500
 _BYTES_PER_TOKEN = 1.9  # measured: ids and coordinates take about two characters a token, unlike prose with four
 BEHIND = f"mind\t{LACKING}"
 """The last line of an answer from a graph that its folder holds corrections for that it doesn't show."""
-CHANGED = "mind\tthe file of the scene changed since this graph was built: build it again"
+OUTDATED = "the file of the scene changed since this graph was built: build it again"
+CHANGED = f"mind\t{OUTDATED}"
 """Likewise from a graph whose source isn't what it was made from any more."""
 _NOTE = f"{BEHIND}\n{CHANGED}\npage 9999 of 9999; next: page=9999"  # as long as the last lines of a page can be
 _NEAR = 3  # names offered where one is not found

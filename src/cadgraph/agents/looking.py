@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Annotated, Any, Literal
 
 from cadgraph._io.text import tag_key
-from cadgraph.agents.answer import Answer, AskError, among, cell, did_you_mean, page_of, row
+from cadgraph.agents.answer import OUTDATED, Answer, AskError, among, cell, did_you_mean, page_of, row
 from cadgraph.agents.measuring import point_of
 from cadgraph.agents.plant import Plant
 from cadgraph.model.names import loose_tag
@@ -112,7 +112,7 @@ def _lacks_lines(plant: Plant, unit: str) -> bool:
 def _trust_rows(trust: Mapping[str, Any]) -> list[str]:
     told = ["trust: corrections were made that this graph may lack: build it again"] * trust["behind_corrections"]
     if trust["changed_source"]:
-        told.append("trust: the file of the scene changed since this graph was built: build it again")
+        told.append(f"trust: {OUTDATED}")
     told.append(f"trust: {trust['parts_unlabelled']} parts unlabelled, {trust['labels_only_likely']} only likely")
     for key, words in (
         ("units_without_line", "no line found at"),

@@ -125,7 +125,8 @@ def build(
         return
     from cadgraph.session.run import run
 
-    # To look through a large graph for what nobody holds takes seconds, and the process is about to end.
+    # To look through a large graph for what nobody holds takes seconds, and the process is about to end: the graph goes
+    # before the collector is on again.
     with collector_paused():
         with bars(() if report else ("draw report",)) as progress:
             labeler = asking.labeler(chosen, output, progress)

@@ -44,7 +44,7 @@ def occupied(scene: Scene, meshes: Ints, low: float, high: float, grid: Grid) ->
                 grid.origin[1], 1.0 / grid.step, found,
             )  # fmt: skip
 
-    for_ranges(fill, np.diff(scene.face_offsets)[meshes])
+    for_ranges(fill, scene.face_offsets[meshes + 1] - scene.face_offsets[meshes])
     return found
 
 

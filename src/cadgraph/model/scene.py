@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
@@ -24,6 +24,7 @@ __all__ = [
     "Scene",
     "Source",
     "StatedLink",
+    "blocks",
     "mesh_of_face",
     "mesh_of_vertex",
     "ranges",
@@ -428,6 +429,11 @@ def mesh_of_face(scene: Scene) -> Ints:
 def _offsets(counts: npt.ArrayLike) -> Ints:
     """``(n + 1,)`` where each of ``n`` ranges of these lengths begins, and the last ends."""
     return np.concatenate([[0], np.cumsum(np.asarray(counts, np.int64))]).astype(np.int64)
+
+
+def blocks(n: int, size: int) -> Iterator[slice]:
+    """``range(n)`` in slices of some length, the last maybe shorter: what is done with one stays in little memory."""
+    return (slice(first, min(first + size, n)) for first in range(0, n, size))
 
 
 def ranges(starts: Ints, lengths: Ints) -> Ints:

@@ -8,10 +8,11 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
+from itertools import islice
 
 import numpy as np
 
-from cadgraph.model.scene import Floats, Ints
+from cadgraph.model.scene import Floats, Ints, blocks
 
 __all__ = ["LIMIT", "Classifier", "Inputs", "Talk", "aggregate"]
 
@@ -143,8 +144,7 @@ def _by_rows(n: int, act: Callable[[slice], Floats]) -> Floats:
         return first
     rows = np.empty((n, *first.shape[1:]))
     rows[:_ROWS] = first
-    for start in range(_ROWS, n, _ROWS):
-        some = slice(start, min(start + _ROWS, n))
+    for some in islice(blocks(n, _ROWS), 1, None):
         rows[some] = act(some)
     return rows
 

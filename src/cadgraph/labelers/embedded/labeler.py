@@ -16,7 +16,7 @@ from cadgraph.labelers.likeliest import likeliest_of_all
 from cadgraph.model.derived import forget
 from cadgraph.model.labels import GeometryEvidence, Label
 from cadgraph.model.parts import Contacts, Parts
-from cadgraph.model.scene import Floats, Ints
+from cadgraph.model.scene import Floats, Ints, blocks
 from cadgraph.model.vocabulary import Vocabulary
 
 __all__ = ["EmbeddedLabeler", "Verdicts", "judge", "spread"]
@@ -161,8 +161,7 @@ def spread(probabilities: Floats, shape: Ints) -> Floats:
     np.add.at(mean, shape, probabilities)
     mean /= count[:, None]
     mixed = np.empty_like(probabilities)
-    for first in range(0, len(shape), _ROWS):
-        some = slice(first, first + _ROWS)
+    for some in blocks(len(shape), _ROWS):
         own, of_shape = probabilities[some], shape[some]
         common = mean[of_shape]
         agreement = np.sqrt(own * common).sum(axis=1) ** 2

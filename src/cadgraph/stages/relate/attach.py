@@ -30,16 +30,8 @@ from cadgraph.stages.relate.offer import (
 from cadgraph.stages.relate.stated import REACH, Stated, mouth_gap
 
 __all__ = [
-    "Attachments",
-    "Mount",
-    "Side",
-    "Tapped",
-    "attach_lines",
-    "facings_of",
-    "flat_contacts",
-    "regions_of",
-    "singles_of",
-]
+    "Attachments", "Mount", "Side", "Tapped", "attach_lines", "facings_of", "flat_contacts", "regions_of", "singles_of",
+]  # fmt: skip
 
 # The middle of a contact lies before an end, or behind it by at most this many radii or this much [m]: a nozzle that
 # runs into a shell.

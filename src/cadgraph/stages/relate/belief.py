@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,7 +11,7 @@ from cadgraph.model.derived import store_of
 from cadgraph.model.labels import Label
 from cadgraph.model.parts import Bools
 from cadgraph.model.probabilities import Probabilities
-from cadgraph.model.scene import Floats
+from cadgraph.model.scene import Floats, blocks
 from cadgraph.model.vocabulary import Vocabulary
 
 __all__ = ["LEAST", "Beliefs", "beliefs_of"]
@@ -21,7 +21,7 @@ LEAST = 1e-3
 
 # Who can't be overruled by what lies around a part: the user, and the file where it is asked.
 _KNOWN = frozenset({"human", "repeat", "catalog", "author", "file"})
-_ROWS = 4_096  # parts at once
+_ROWS = 4_096  # parts at once, whose rows stay in the processor's cache
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,14 +58,9 @@ class Beliefs:
 def _sum_of(values: Floats, columns: Sequence[int]) -> Floats:
     """The sum of some columns in each row."""
     total = np.empty(len(values))
-    for some in _in_blocks(len(values)):
+    for some in blocks(len(values), _ROWS):
         values[some, columns].sum(axis=1, out=total[some])
     return total
-
-
-def _in_blocks(n_parts: int) -> Iterator[slice]:
-    """Some parts at once, whose rows stay in the processor's cache."""
-    return (slice(first, first + _ROWS) for first in range(0, n_parts, _ROWS))
 
 
 def beliefs_of(labels: Sequence[Label | None], probabilities: Probabilities | None, vocabulary: Vocabulary) -> Beliefs:
@@ -113,7 +108,7 @@ def _values_of(
     if probabilities is not None:
         known = [k for k, said in enumerate(probabilities.classes) if said in column]
         columns = [column[probabilities.classes[k]] for k in known]
-        for some in _in_blocks(n_parts):
+        for some in blocks(n_parts, _ROWS):
             values[some, columns] = probabilities.values[some, known]
     return values
 

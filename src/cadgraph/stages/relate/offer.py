@@ -15,7 +15,7 @@ from cadgraph.geometry.line.centreline import Centreline
 from cadgraph.model.derived import kept_with
 from cadgraph.model.parts import Bools, Contacts
 from cadgraph.model.records import BY_USER, CUT
-from cadgraph.model.scene import Floats, Ints, ranges
+from cadgraph.model.scene import Floats, Ints, blocks, ranges
 from cadgraph.stages.relate.evidence import CURVES, FLAGS, add_up, add_up_one, score_of, tell
 from cadgraph.stages.relate.joint import Ends, Tap, find_tap
 from cadgraph.stages.relate.stated import REACH, Stated
@@ -173,8 +173,8 @@ class EndsAhead:
     """
 
     def __init__(self, ends: Ends, pairs: Ints) -> None:
-        blocks = [pairs[start : start + _AT_ONCE] for start in range(0, max(1, len(pairs)), _AT_ONCE)]
-        found = [_on_axis(ends, *rows.T) for rows in blocks] + [_on_axis(ends, *rows.T[::-1]) for rows in blocks]
+        both = (pairs, pairs[:, ::-1])
+        found = [_on_axis(ends, *rows[some].T) for rows in both for some in blocks(max(1, len(pairs)), _AT_ONCE)]
         row, other, distance, alike = (np.concatenate(column) for column in zip(*found, strict=True))
         order = np.argsort(row, kind="stable")
         self._first = np.searchsorted(row[order], np.arange(len(ends.part) + 1))
@@ -251,9 +251,11 @@ def offer_faces(ends: Ends, around: Surroundings, ahead: EndsAhead | None = None
 
 def _cosine(ends: Ends, pairs: Ints) -> Floats:
     """``(n,)`` of the angle between the ends of each pair."""
-    blocks = [pairs[start : start + _AT_ONCE] for start in range(0, max(1, len(pairs)), _AT_ONCE)]
-    directions = ends.direction
-    return np.concatenate([np.einsum("ij,ij->i", directions[rows[:, 0]], directions[rows[:, 1]]) for rows in blocks])
+    cosine = np.empty(len(pairs))
+    for some in blocks(len(pairs), _AT_ONCE):
+        first, second = pairs[some].T
+        cosine[some] = np.einsum("ij,ij->i", ends.direction[first], ends.direction[second])
+    return cosine
 
 
 def _faces(ends: Ends, pairs: Ints, around: Surroundings, ahead: EndsAhead) -> list[Offer]:
