@@ -1,6 +1,6 @@
 """Draws the gallery of devices: every family, five draws each, with the parameters that they were built from.
 
-``python tools/draw_devices.py`` writes docs/devices/; ``--kind valve`` only families with this in their names. The
+``python tools/draw_devices.py`` writes docs/devices/; ``--kind valve`` only those pictures. The
 draws differ in seed and nominal size; all are in one modelling style, coloured by what the parts are.
 """
 
@@ -116,14 +116,13 @@ def main() -> None:
     """Draws what is asked for."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", type=Path, nargs="?", default=Path("docs/devices"))
-    parser.add_argument("--kind", default="", help="only families with this in their names")
+    parser.add_argument("--kind", default="", help="only the pictures of families with this in their names")
     parser.add_argument("--workers", type=int, default=2)
     options = parser.parse_args()
     kinds: dict[str, list[Family]] = {}
     for name, family in sorted(ALL_FAMILIES.items()):
-        if options.kind in name:
-            kinds.setdefault(name.split("/")[0], []).append(family)
-    names = [family.name for families in kinds.values() for family in families]
+        kinds.setdefault(name.split("/")[0], []).append(family)
+    names = [name for name in sorted(ALL_FAMILIES) if options.kind in name]
     with ProcessPoolExecutor(options.workers) as pool:
         for name, content in zip(names, pool.map(strip, names, chunksize=4), strict=True):
             write_atomically(options.folder / file_name(name), content)

@@ -15,7 +15,7 @@ from cadplants.parts.flange import flange
 from cadplants.parts.piping import outlet
 from cadplants.presets.assortment import make_assortment
 from cadplants.presets.authoring_systems import SYSTEMS, draw_system, make_in_system
-from cadplants.presets.taste import ALL_FAMILIES, Taste
+from cadplants.presets.taste import ALL_FAMILIES, LAID, Taste
 from cadplants.styles.modeling_style import STYLES
 from cadplants.truth.truth_check import prove
 from cadplants.truth.truth_writer import truth_of
@@ -119,7 +119,7 @@ def test_unknown_systems_and_families_are_named():
 
 
 def test_names_of_all_families_differ():
-    assert len(ALL_FAMILIES) == len(FAMILIES) + len(PRIMITIVES) + len(LOOKALIKES)
+    assert len(ALL_FAMILIES) == len(FAMILIES) + len(PRIMITIVES) + len(LOOKALIKES) + len(LAID)
 
 
 def test_a_style_of_primitives_makes_an_assortment_of_primitives():

@@ -2,12 +2,14 @@ import numpy as np
 import pytest
 
 from cadplants import STYLES
-from cadplants.lines.instrument import gauge_tap, reducer_at, tee_at, valve_at
+from cadplants.families.preset_devices import Gauge
+from cadplants.lines.instrument import reducer_at, tap_at, tee_at, valve_at
 from cadplants.lines.layout import Inline, Run, lay
 from cadplants.lines.route import Route
 from cadplants.model.standards import ELBOW_LONG_RADIUS
 
 HAND = STYLES["plant-design"]
+GAUGE = Gauge(size=63, marks="none", stem=0.075, turn=0.0, reading=1.2)
 STRAIGHT = Route(np.array([(0.0, 0.0, 0.0), (3.0, 0.0, 0.0)]))
 ROUND_A_CORNER = Route(np.array([(0.0, 0.0, 0.0), (2.0, 0.0, 0.0), (2.0, 2.0, 0.0)]))
 
@@ -36,9 +38,8 @@ def test_bent_pipe_is_one_mesh_round_a_corner():
 
 
 def test_nodes_follow_each_other_by_place_whatever_their_order_in_the_run():
-    rng = np.random.default_rng(0)
     inline = (valve_at(2.4, "globe", "V-2", 50), valve_at(0.8, "ball", "V-1", 50))
-    taps = (gauge_tap(1.6, "G-1", rng), gauge_tap(0.3, "G-2", rng))
+    taps = (tap_at(1.6, GAUGE, "G-1"), tap_at(0.3, GAUGE, "G-2"))
     connections = lay(Run("L", 50, STRAIGHT, inline, taps), HAND).assembly.connections
     order = [connections[0].source, *(c.target for c in connections)]
     assert order == ["L/start", "G-2", "V-1", "G-1", "V-2", "L/end"]
@@ -71,9 +72,8 @@ def test_a_device_in_a_corner_is_an_error():
 
 
 def test_a_tap_on_a_valve_is_an_error():
-    rng = np.random.default_rng(0)
     with pytest.raises(ValueError, match="no pipe"):
-        lay(Run("L", 50, STRAIGHT, (valve_at(1.0, "ball", "V-1", 50),), (gauge_tap(1.0, "G-1", rng),)), HAND)
+        lay(Run("L", 50, STRAIGHT, (valve_at(1.0, "ball", "V-1", 50),), (tap_at(1.0, GAUGE, "G-1"),)), HAND)
 
 
 def test_a_joint_at_the_end_offers_what_touches_the_nozzle():

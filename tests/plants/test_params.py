@@ -187,6 +187,39 @@ def test_pieces_of_which_there_are_several_are_read_one_by_one():
     assert json.loads(json.dumps(drawn.to_json()))["feet"][1]["lobes"] == drawn.feet[1].lobes
 
 
+def test_of_several_pieces_one_is_given_by_its_number_and_the_rest_stays_as_drawn():
+    drawn = Housing.draw(Apart(3), count=2)
+    told = Housing.draw(Apart(3), count=2, **{"feet.1.lobes": "5", "feet.1.radius": 0.025})
+    assert (told.feet[0], told.count) == (drawn.feet[0], 2)
+    assert (told.feet[1].lobes, told.feet[1].radius) == (5, 0.025)
+
+
+@pytest.mark.parametrize(
+    ("told", "message"),
+    [
+        ({"feet.2.lobes": 4}, "feet.2: give one of 0 to 1 and a parameter of it, as 0.name"),
+        ({"feet.one.lobes": 4}, "feet.one: give one of 0 to 1"),
+        ({"feet.0": 4}, "feet.0: give one of 0 to 1"),
+        ({"feet.0.loves": 4}, "feet.0.loves: no parameter; there are radius, lobes"),
+        ({"feet.0.lobes": 9}, "feet.0.lobes=9: give 3 to 6"),
+        ({"feet.0.lobes.more": 9}, "feet.0.lobes.more: no parameter; there are none"),
+    ],
+)
+def test_what_one_of_several_pieces_can_not_be_is_refused_by_name(told, message):
+    with pytest.raises(ValueError, match=message):
+        Housing.draw(Apart(3), count=2, **told)
+
+
+def test_what_is_given_is_one_of_its_choices():
+    class Sign(Params):
+        on: str = given("top", "where", choices=("top", "side"))
+
+    assert Sign.draw(Apart(1)).on == "top"
+    assert Sign.draw(Apart(1), on="side").on == "side"
+    with pytest.raises(ValueError, match="on=under: give top, side"):
+        Sign.draw(Apart(1), on="under")
+
+
 def test_a_parameter_takes_no_name_that_a_device_has():
     with pytest.raises(TypeError, match="a device has that already"):
 

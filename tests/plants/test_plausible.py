@@ -17,7 +17,7 @@ from cadplants.styles.modeling_style import STYLES
 from plants.solids import shell_volumes, shells
 
 STYLE = replace(STYLES["mechanical"], sides=(12, 16))
-CRUDE = {*LOOKALIKES, *PRIMITIVES}
+CRUDE = {*LOOKALIKES, *PRIMITIVES, "valve/cones or cylinder"}
 """What is drawn as others draw in a hurry: of plain solids."""
 INSIDE = {"valve disc", "valve ball", "valve stem", "gasket", "impeller", "thermowell"}
 BODIES = {"valve body", "valve bonnet", "flange", "blind flange", "pipe", "actuator", "gearbox"}
@@ -27,9 +27,9 @@ STEEL = 7850  # kg/m3
 
 # Usual figures of manufacturers for class 150 or PN 16 with operator, rounded [kg].
 WEIGHTS = {
-    ("gate valve/rising stem", 50): 19,
-    ("gate valve/rising stem", 100): 50,
-    ("gate valve/rising stem", 200): 135,
+    ("gate valve/os&y", 50): 19,
+    ("gate valve/os&y", 100): 50,
+    ("gate valve/os&y", 200): 135,
     ("globe valve/sphere", 50): 22,
     ("globe valve/sphere", 100): 60,
     ("globe valve/sphere", 200): 200,

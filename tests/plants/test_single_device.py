@@ -3,7 +3,7 @@ import json
 import pytest
 
 from cadplants.builder.device import Maker
-from cadplants.presets.single_device import draw_parameters, family_called, make_device
+from cadplants.presets.single_device import draw_parameters, family_called, make_device, rebuild
 from cadplants.presets.taste import ALL_FAMILIES
 from cadplants.truth.truth_writer import truth_of
 from command_line import refused, run
@@ -40,10 +40,10 @@ def test_a_device_by_itself_is_a_plant_with_truth(name):
 @pytest.mark.parametrize(
     ("name", "given", "message"),
     [
-        ("gate valve/os&y", {}, "no family of devices; did you mean"),
+        ("gate valve/os&z", {}, "no family of devices; did you mean gate valve/os&y"),
         ("gate valve", {}, "gate valve/"),
-        ("gate valve/rising stem", {"dn": 81}, "dn=81: gate valve/rising stem is made in"),
-        ("gate valve/rising stem", {"dn": "x"}, "dn=x: gate valve/rising stem is made in"),
+        ("gate valve/os&y", {"dn": 81}, "dn=81: gate valve/os&y is made in"),
+        ("gate valve/os&y", {"dn": "x"}, "dn=x: gate valve/os&y is made in"),
     ],
 )
 def test_unknown_families_and_sizes_are_refused(name, given, message):
@@ -51,9 +51,41 @@ def test_unknown_families_and_sizes_are_refused(name, given, message):
         make_device(name, given=given)
 
 
+@pytest.mark.parametrize(
+    ("name", "given", "message"),
+    [
+        ("tank/drum", {"nozzles.0.size": 47}, "nozzles.0.size=47: give 15, 20"),
+        ("tank/drum", {"nozzles.0.first": "nan"}, "nozzles.0.first=nan: give a number"),
+        ("tank/drum", {"nozzles.0.first": 5}, "tank/drum: .*nozzles.0: of DN 80, it reaches beyond the shell"),
+        ("tank/drum", {"nozzles.0.on": "side"}, "tank/drum: .*nozzles.0.on=side: give top, left, right"),
+        ("tank/dished with manway", {"nozzles.1.on": "left"}, "nozzles.1.on=left: give top, side"),
+        ("platform/grating", {"opening": 9}, "opening=9: give -"),
+        ("pump/end suction", {"out": 47}, "out=47: give 0, 15"),
+    ],
+)
+def test_what_would_make_no_device_is_refused(name, given, message):
+    with pytest.raises(ValueError, match=message):
+        make_device(name, given=given)
+
+
+@pytest.mark.parametrize("size", [47, None, "wide", float("nan")])
+def test_a_record_that_makes_no_device_is_refused(size):
+    (row,) = truth_of(make_device("tank/drum"))["devices"]
+    nozzles = [{**row["params"]["nozzles"][0], "size": size}, *row["params"]["nozzles"][1:]]
+    with pytest.raises(ValueError, match="tank/drum: these parameters do not fit each other"):
+        rebuild({**row, "params": {**row["params"], "nozzles": nozzles}})
+
+
+@pytest.mark.filterwarnings("ignore:invalid value")
+def test_no_device_is_written_whose_corners_are_no_numbers():
+    (row,) = truth_of(make_device("post/square"))["devices"]
+    with pytest.raises(ValueError, match="post/square: these parameters do not fit each other: they make no solid"):
+        rebuild({**row, "params": {**row["params"], "height": float("nan")}})
+
+
 def test_a_style_by_its_name():
     with pytest.raises(ValueError, match="style 'baroque': give one of"):
-        make_device("gate valve/rising stem", style="baroque")
+        make_device("gate valve/os&y", style="baroque")
 
 
 def test_sizes_are_those_of_the_family():
@@ -64,12 +96,12 @@ def test_sizes_are_those_of_the_family():
 def test_commands_list_describe_and_write_devices(capsys, tmp_path):
     code, out, _ = run(capsys, "environment", "devices", "gate valve")
     assert code == 0
-    assert "gate valve/rising stem  inline  Valve assembly" in out
-    code, out, _ = run(capsys, "environment", "device", "gate valve/rising stem")
+    assert "gate valve/os&y  inline  Valve assembly" in out
+    code, out, _ = run(capsys, "environment", "device", "gate valve/os&y")
     assert code == 0
-    assert out.startswith("gate valve/rising stem: Valve assembly, inline, DN ")
+    assert out.startswith("gate valve/os&y: Valve assembly, inline, DN ")
     scene = tmp_path / "valve.usdc"
-    code, _, _ = run(capsys, "environment", "device", "gate valve/rising stem", "--set", "dn=80", "-o", scene)
+    code, _, _ = run(capsys, "environment", "device", "gate valve/os&y", "--set", "dn=80", "-o", scene)
     assert code == 0
     assert scene.exists()
     assert (tmp_path / "valve.truth.json").exists()
@@ -78,9 +110,9 @@ def test_commands_list_describe_and_write_devices(capsys, tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        (("device", "gate valve/os&y"), "'gate valve/os&y' is no family"),
-        (("device", "gate valve/rising stem", "--set", "dn"), "--set dn: give a parameter and its value as NAME=VALUE"),
-        (("device", "gate valve/rising stem", "--set", "dn=81"), "dn=81"),
+        (("device", "gate valve/os&z"), "'gate valve/os&z' is no family"),
+        (("device", "gate valve/os&y", "--set", "dn"), "--set dn: give a parameter and its value as NAME=VALUE"),
+        (("device", "gate valve/os&y", "--set", "dn=81"), "dn=81"),
         (("devices", "zeppelin"), "'zeppelin': no family has this in its name"),
     ],
 )

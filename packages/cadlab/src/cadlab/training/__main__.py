@@ -16,7 +16,7 @@ from cadlab.training.course import Course, run_course, source_digest
 from cadlab.training.page import write_page
 from cadlab.training.real import read_modelled_plants, read_real_parts, read_real_plants
 from cadlab.training.sheet import draw_mistakes
-from cadplants.presets.taste import ALL_FAMILIES
+from cadplants.presets.taste import ALL_FAMILIES, LAID
 
 _MODEL = Path(embedded.__file__).with_name("model.npz")
 """The model that the labeler reads; ``make train`` writes it anew in place."""
@@ -66,7 +66,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
     beside.replace(given.model)
     if plants:
         draw_mistakes(plants, trials.real, given.sheet)
-    page = write_page(trials, parts, given.model.stat().st_size, len(ALL_FAMILIES), given.sheet.name if plants else "")
+    drawn, sheet = len(ALL_FAMILIES) - len(LAID), given.sheet.name if plants else ""
+    page = write_page(trials, parts, given.model.stat().st_size, drawn, sheet)
     write_atomically(given.page, page)
     sys.stdout.write(f"wrote {given.model} and {given.page}\n")
 

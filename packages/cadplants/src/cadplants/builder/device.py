@@ -9,7 +9,9 @@ import numpy as np
 
 from cadplants.builder.params import Apart, OneStream, Params, Source, given
 from cadplants.builder.table import Table
-from cadplants.model.family import Family, Model
+from cadplants.model.family import Family, Model, as_assembly, as_device
+from cadplants.model.plant import Assembly
+from cadplants.model.plant import Device as InLine
 from cadplants.model.standards import SIZES
 from cadplants.styles.modeling_style import ModelingStyle
 
@@ -47,7 +49,7 @@ class Device(Params):
     grain: ClassVar[str] = ""
     welded: ClassVar[bool] = False
 
-    dn: int = given(0, "nominal size", "mm")
+    dn: int = given(default=0, about="nominal size", unit="mm")
 
     def __init_subclass__(cls, **said: Any) -> None:
         taken = [key for key, value in vars(cls).items() if isinstance(value, Field) and hasattr(Device, key)]
@@ -79,6 +81,25 @@ class Device(Params):
         """The device as a style models it; the same parameters and style give the same bytes."""
         made = self.build(Table(style, self.group, self.bundle, self.dn))
         return replace(made, params=self.to_json())
+
+    @classmethod
+    def as_family(cls) -> Family:
+        """The family as assortments take it."""
+        return Family(
+            cls.name, cls.place, cls.group, cls.label, Maker(cls), cls.sizes, cls.grain, cls.weight, cls.welded
+        )
+
+    def as_assembly(self, style: ModelingStyle, unit: str = "") -> Assembly:
+        """The components that a style makes of it, with what they were built from; ``unit`` is its id as one."""
+        return as_assembly(self.as_family(), self.model(style), style, unit)
+
+    def as_device(self, style: ModelingStyle, unit: str = "") -> InLine:
+        """Likewise, for a line.
+
+        Raises:
+            ValueError: it is no device for a line.
+        """
+        return as_device(self.as_family(), self.model(style), style, unit)
 
 
 @dataclass(frozen=True)
@@ -124,7 +145,4 @@ class Maker:
 
 def families_of(*devices: type[Device]) -> tuple[Family, ...]:
     """Families as the assortment takes them, from their classes."""
-    return tuple(
-        Family(one.name, one.place, one.group, one.label, Maker(one), one.sizes, one.grain, one.weight, one.welded)
-        for one in devices
-    )
+    return tuple(one.as_family() for one in devices)

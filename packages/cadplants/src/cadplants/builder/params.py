@@ -136,8 +136,8 @@ class Field:
         return self.limits_by(drawn)
 
 
-def _field(spec: Field) -> Any:
-    return dataclasses.field(metadata={"spec": spec})
+def _field(spec: Field, default: Any = dataclasses.MISSING) -> Any:
+    return dataclasses.field(default=default, metadata={"spec": spec})
 
 
 def between(
@@ -148,8 +148,19 @@ def between(
     *,
     when: When | None = None,
     otherwise: float = 0.0,
+    digits: int = _DIGITS,
 ) -> float:
-    """A number, all between two as likely; these may follow from the fields before."""
+    """A number, all between two as likely; these may follow from the fields before.
+
+    Args:
+        low: the least.
+        high: the most.
+        about: what it means: a noun phrase.
+        unit: of it.
+        when: whether the device has it.
+        otherwise: its value where it has not.
+        digits: that a draw is rounded to, if fewer than are written down.
+    """
 
     def bounds(before: Any) -> tuple[float, float]:
         return (low(before) if callable(low) else low), (high(before) if callable(high) else high)
@@ -160,13 +171,19 @@ def between(
     depends = callable(low) or callable(high)
     limits = _DEPENDS if depends else f"{low:g} to {high:g}"
     here = (lambda before: "{:.4g} to {:.4g}".format(*bounds(before))) if depends else None
-    draw = lambda source, before: float(source.rng.uniform(*bounds(before)))  # noqa: E731
+
+    def draw(source: Source, before: Any) -> float:
+        number = float(source.rng.uniform(*bounds(before)))
+        return round(number, digits) if digits < _DIGITS else number
+
     return _field(Field(about, unit, limits, draw, accept, when, otherwise, limits_by=here))  # type: ignore[no-any-return]
 
 
 def _within(value: Any, least: float, most: float) -> float:
     """A number between two; what was rounded beyond one of them when it was written down is that one."""
     number = float(value)
+    if not np.isfinite(number):
+        raise ValueError("give a number")
     if not least - _ROUNDED <= number <= most + _ROUNDED:
         raise ValueError(f"give {least:g} to {most:g}")
     return min(max(number, least), most)
@@ -280,10 +297,40 @@ def weighted(about: str, *, when: When | None = None, otherwise: str = "", **sha
     return _field(Field(about, "", limits, sample, accept, when, otherwise))  # type: ignore[no-any-return]
 
 
-def given(default: T, about: str, unit: str = "") -> T:
-    """What is not drawn but said by whoever asks for the device: a nominal size, a height."""
+def given(
+    default: T,
+    about: str,
+    unit: str = "",
+    *,
+    choices: Sequence[T] = (),
+    low: float | Callable[[Any], float] = -np.inf,
+    high: float | Callable[[Any], float] = np.inf,
+) -> T:
+    """What is not drawn but said by whoever asks for the device: a nominal size, a height.
+
+    Args:
+        default: its value where nobody says.
+        about: what it means: a noun phrase.
+        unit: of it.
+        choices: what it can be; anything like the default where there are none.
+        low: the least of a number that is no whole one, maybe by the fields before.
+        high: the most of it.
+    """
     kind: Any = _yes_or_no if isinstance(default, bool) else type(default)
-    return _field(Field(about, unit, f"{_told(default)} unless given", lambda *_: default, lambda v, _: kind(v)))  # type: ignore[no-any-return]
+
+    def accept(value: Any, before: Any) -> T:
+        told: Any = kind(value)
+        if choices and told not in choices:
+            raise ValueError(f"give {', '.join(map(_told, choices))}")
+        if isinstance(told, float):
+            told = _within(told, *(end(before) if callable(end) else end for end in (low, high)))
+        return told  # type: ignore[no-any-return]
+
+    limits = f"{', '.join(map(_told, choices))}; " if choices else ""
+    if not callable(low) and not callable(high) and np.isfinite([low, high]).all():
+        limits += f"{low:g} to {high:g}; "
+    limits += f"{_told(default) or 'nothing'} unless given"
+    return _field(Field(about, unit, limits, lambda *_: default, accept), default)  # type: ignore[no-any-return]
 
 
 def styled(default: T, about: str) -> T:
@@ -399,7 +446,8 @@ class Params:
         Args:
             source: of random numbers; of a plain generator all fields are drawn one after the other.
             fixed: values by name that the one who builds with the piece sets, whatever a draw could be.
-            given: values by name that a user wants, of pieces as ``"drive.length"``; text is understood.
+            given: values by name that a user wants, of pieces as ``"drive.length"``, of one of several as
+                ``"nozzles.0.size"``, the rest of which stays as drawn; text is understood.
 
         Raises:
             ValueError: a name is not known, or a given value can't be.
@@ -426,7 +474,9 @@ class Params:
                 continue
             else:
                 values[name] = spec.sample(source.of(name), before)
-            if any(inner):
+            if inner[0] and not inner[1] and _pieces_in(values[name]):
+                values[name] = _drawn(name, _with, values[name], inner[0])
+            elif any(inner):
                 first = next(iter({**inner[0], **inner[1]}))
                 raise ValueError(f"{name}.{first}: the device has no {name} with parameters of its own")
         return cls(**values)
@@ -542,6 +592,34 @@ def _accepted(name: str, spec: Field, value: Any, before: Any) -> Any:
         # What is no number at all is told what a number could be.
         said = str(error) if str(error).startswith("give ") else f"give {spec.limits}"
         raise ValueError(f"{name}={value}: {said}") from None
+
+
+def _with(value: Any, told: Mapping[str, Any]) -> Any:
+    """A piece, or several by their numbers, with some of its parameters as they are told."""
+    parts: dict[str, dict[str, Any]] = {}
+    for key, one in told.items():
+        head, _, rest = key.partition(".")
+        parts.setdefault(head, {})[rest] = one
+    if isinstance(value, tuple):
+        found = list(value)
+        for head, inner in parts.items():
+            if not head.isdecimal() or int(head) >= len(found) or "" in inner:
+                raise ValueError(f"{head}: give one of 0 to {len(found) - 1} and a parameter of it, as 0.name")
+            found[int(head)] = _drawn(head, _with, found[int(head)], inner)
+        return tuple(found)
+    if not isinstance(value, Params):
+        raise ValueError(f"{next(iter(told))}: no parameter; there are none")
+    specs, before = value.fields(), SimpleNamespace(**{name: getattr(value, name) for name in value.fields()})
+    for head, inner in parts.items():
+        if head not in specs:
+            raise ValueError(f"{head}: no parameter; there are {', '.join(specs) or 'none'}")
+        spec, own = specs[head], getattr(before, head)
+        if spec.when is not None and not spec.when(before):
+            raise ValueError(f"{head}: the rest of it rules that out")
+        vars(before)[head] = (
+            _accepted(head, spec, inner[""], before) if "" in inner else _drawn(head, _with, own, inner)
+        )
+    return type(value)(**vars(before))
 
 
 def _drawn(name: str, piece: Callable[..., Any], *args: Any) -> Any:

@@ -2,11 +2,11 @@
 
 from cadplants.families.instruments.instrument import INSTRUMENTS
 from cadplants.families.instruments.measuring import MEASURING
-from cadplants.families.known import KNOWN
 from cadplants.families.machines.machine import MACHINES
 from cadplants.families.machines.rotating import ROTATING
 from cadplants.families.piping.fitting import FITTINGS
 from cadplants.families.piping.pipework import PIPEWORK
+from cadplants.families.preset_devices import PRESET_DEVICES
 from cadplants.families.steel.frame import FRAMES
 from cadplants.families.steel.steelwork import STEELWORK
 from cadplants.families.supports.connection import CONNECTIONS
@@ -28,7 +28,7 @@ __all__ = ["FAMILIES"]
 FAMILIES: dict[str, Family] = {
     family.name: family
     for family in (
-        *KNOWN,
+        *PRESET_DEVICES,
         *VALVE_FAMILIES,
         *THREADED,
         *FITTINGS,

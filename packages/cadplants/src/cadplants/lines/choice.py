@@ -3,26 +3,25 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
 from cadplants.builder.params import Apart
 from cadplants.families import FAMILIES
-from cadplants.lines.instrument import valve_at
+from cadplants.families.preset_devices import Gauge, SideGauge
+from cadplants.lines.instrument import in_style, tap_at, valve_at
 from cadplants.lines.run import Inline, Tap
 from cadplants.model.contacts import whole
 from cadplants.model.family import as_assembly, as_device
 from cadplants.model.plant import Assembly, Device
-from cadplants.parts.brand import Brand
-from cadplants.parts.detail import Marks, marked_gauge
-from cadplants.parts.gauge import pressure_gauge, side_gauge
-from cadplants.parts.primitive_devices import in_primitives
+from cadplants.parts.brand import Brand, draw_brand
+from cadplants.parts.detail import Marks
 from cadplants.styles.modeling_style import ModelingStyle
 
-__all__ = ["Choice"]
+__all__ = ["Choice", "draw_choice"]
 
 _AGAINST = np.diag([-1.0, -1.0, 1.0, 1.0])
-_FINE = 0.0003  # m; a style whose circles are coarser than this models no marks
 
 
 @dataclass(frozen=True)
@@ -49,8 +48,7 @@ class Choice:
         actuated: bool = False,
     ) -> Inline:
         """A valve with its middle at a chainage; arguments as of ``valve_at``."""
-        item = valve_at(s, kind, unit, dn, roll, reverse, self.make, turn, actuated)
-        return replace(item, family=self.make.design(kind))
+        return valve_at(s, kind, unit, dn, roll, reverse, self.make, turn, actuated)
 
     def control_valve(self, s: float, unit: str, dn: int, seed: int, roll: float = 0.0) -> Inline:
         """A control valve with a diaphragm or an electric actuator, its middle at a chainage.
@@ -82,11 +80,11 @@ class Choice:
                 return as_device(family, family.build(dn, style, Apart(seed, number)), style, unit)
 
             if style.devices == "primitives":
-                return in_primitives(draw(0), dn, style)
+                return in_style(draw(0), dn, style)
             made = whole(lambda number: draw(number).assembly)
             return replace(draw(0), assembly=made)
 
-        return Inline(s, build, unit, roll, family=family.name)
+        return Inline(s, build, unit, roll)
 
     def relief_valve(self, s: float, unit: str, seed: int) -> Tap:
         """A small relief valve on a branch outlet on top of a level pipe.
@@ -114,13 +112,8 @@ class Choice:
             turn: of its dial [rad].
             height: of its stem [m]; as its size usually has where 0.
         """
-        rise = height or (0.075 if size < 100 else 0.09)
-
-        def build(style: ModelingStyle) -> Assembly:
-            gauge = pressure_gauge(unit, style, size, rise, turn, needle)
-            return marked_gauge(gauge, size, self._marks(style), style)
-
-        return Tap(s, build, unit)
+        stem = height or (0.075 if size < 100 else 0.09)
+        return tap_at(s, Gauge(size=size, marks=self.marks, stem=stem, turn=turn, reading=needle), unit)
 
     def side_gauge(
         self, s: float, unit: str, size: int, needle: float, down: bool = False, roll: float = np.pi / 2
@@ -135,16 +128,27 @@ class Choice:
             down: whether the run goes down there.
             roll: of the outlet about the run [rad].
         """
+        # The dial looks away from its pipe, whichever way the run goes.
+        out, turn = 0.09 if size < 100 else 0.11, -np.pi / 2
+        gauge = SideGauge(size=size, marks=self.marks, out=out, rise=0.06, turn=turn, reading=needle)
+        return Tap(s, partial(_standing, gauge, unit, down), unit, roll)
 
-        def build(style: ModelingStyle) -> Assembly:
-            # The dial looks away from its pipe, whichever way the run goes.
-            gauge = side_gauge(unit, style, size, 0.09 if size < 100 else 0.11, 0.06, -np.pi / 2, needle)
-            gauge = marked_gauge(gauge, size, self._marks(style), style)
-            # On a run that goes down, up is against it.
-            return gauge.placed(_AGAINST) if down else gauge
 
-        return Tap(s, build, unit, roll)
+def draw_choice(rng: np.random.Generator, seed: int, marks: Marks | None = None, usual: Marks = "few") -> Choice:
+    """What one plant's devices look like, at random.
 
-    def _marks(self, style: ModelingStyle) -> Marks:
-        fine = style.sag <= _FINE and not style.wobble and style.devices == "built"
-        return self.marks if fine else "none"
+    Args:
+        rng: of the make and of the marks.
+        seed: 0 takes the usual make and marks.
+        marks: asked for, or None.
+        usual: marks of the plant of seed 0.
+    """
+    make = draw_brand(rng)
+    drawn: Marks = marks or ("few", "none", "few", "all")[int(rng.integers(4))]
+    return Choice(make if seed else Brand(), drawn if seed or marks else usual)
+
+
+def _standing(gauge: SideGauge, unit: str, down: bool, style: ModelingStyle) -> Assembly:
+    made = gauge.as_assembly(style, unit)
+    # On a run that goes down, up is against it.
+    return made.placed(_AGAINST) if down else made

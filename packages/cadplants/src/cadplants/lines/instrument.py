@@ -1,25 +1,71 @@
-"""Builders that a run calls with its style: valves, gauges and tees by name, ready for ``Inline`` and ``Tap``."""
+"""Devices put into a run: valves, gauges and fittings with their parameters, ready for ``Inline`` and ``Tap``."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
 from functools import partial
-from typing import Any
+from zlib import crc32
 
-import numpy as np
-
+from cadplants.builder.device import Device
+from cadplants.families.preset_devices import (
+    Barrel,
+    Basket,
+    EccentricReducer,
+    GlobeBarrel,
+    GlobeSphere,
+    MagneticMeter,
+    OutsideYoke,
+    PlainValve,
+    Reducer,
+    SwingCheck,
+    Tee,
+    TwoPiece,
+    WaferGear,
+    WaferLever,
+)
 from cadplants.lines.layout import Inline, Tap
-from cadplants.model.plant import Assembly, Device
+from cadplants.model.plant import Device as InLine
 from cadplants.parts.brand import Brand
-from cadplants.parts.gauge import pressure_gauge
-from cadplants.parts.meter import flow_meter
-from cadplants.parts.piping import eccentric_reducer, reducer, tee
-from cadplants.parts.primitive_devices import in_primitives
-from cadplants.parts.strainer import strainer
-from cadplants.parts.valve import VALVES
 from cadplants.styles.modeling_style import ModelingStyle
 
-__all__ = ["eccentric_at", "gauge_tap", "meter_at", "reducer_at", "strainer_at", "tee_at", "valve_at"]
+__all__ = [
+    "eccentric_at",
+    "in_style",
+    "inline_at",
+    "meter_at",
+    "reducer_at",
+    "strainer_at",
+    "tap_at",
+    "tee_at",
+    "valve_at",
+]
+
+_GEARED = 200  # nominal size from which butterfly valves have a gearbox where their make doesn't say
+
+
+def inline_at(
+    s: float, device: Device, unit: str = "", roll: float = 0.0, reverse: bool = False, junction: str = "", dn: int = 0
+) -> Inline:
+    """A device with its middle at a chainage [m]; the rest as of ``Inline``."""
+    return Inline(s, partial(_built, device, unit), unit, roll, reverse, device.welded, junction, dn)
+
+
+def tap_at(s: float, device: Device, unit: str, roll: float = 0.0) -> Tap:
+    """An instrument on a branch outlet at a chainage [m]; ``roll`` of the outlet about the run [rad]."""
+    return Tap(s, partial(device.as_assembly, unit=unit), unit, roll)
+
+
+def _built(device: Device, unit: str, style: ModelingStyle) -> InLine:
+    return in_style(device.as_device(style, unit), device.dn, style)
+
+
+def in_style(built: InLine, dn: int, style: ModelingStyle) -> InLine:
+    """A device for a line; a valve as primitives in a style that has those. Its id decides of which."""
+    units = built.assembly.units
+    if style.devices != "primitives" or not units or units[0].type != "valve":
+        return built
+    form = crc32(units[0].id.encode()) % 4
+    plain = PlainValve(dn=dn, stands_for=units[0].kind, length=built.length, wafer=built.wafer, form=form)
+    return plain.as_device(style, units[0].id)
 
 
 def valve_at(
@@ -33,11 +79,11 @@ def valve_at(
     turn: float = 0.0,
     actuated: bool = False,
 ) -> Inline:
-    """A valve of a kind of ``VALVES`` with its middle at a chainage [m].
+    """A valve with its middle at a chainage [m].
 
     Args:
         s: chainage.
-        kind: of valve.
+        kind: ``ball``, ``butterfly``, ``check``, ``gate`` or ``globe``.
         unit: its id.
         dn: nominal size.
         roll: of its stem about the run [rad]; 0 is upright.
@@ -46,75 +92,44 @@ def valve_at(
         turn: of its wheel or lever [rad].
         actuated: whether a ball valve has an actuator in place of its lever.
     """
-    options = dict((make or Brand()).options(kind, turn))
-    if actuated and kind == "ball":
-        options["lever"] = "actuator"
-    build: Callable[[ModelingStyle], Device] = partial(_valve, kind=kind, unit=unit, dn=dn, options=options)
-    return Inline(s, build, unit, roll, reverse)
+    return inline_at(s, _valve(make or Brand(), kind, dn, turn, actuated), unit, roll, reverse)
+
+
+def _valve(make: Brand, kind: str, dn: int, turn: float, actuated: bool) -> Device:
+    if kind == "ball":
+        body = TwoPiece if make.ball == "two-piece" else Barrel
+        return body(dn=dn, lever="actuator" if actuated else make.lever, turn=turn)
+    if kind == "globe":
+        globe = GlobeSphere if make.globe == "sphere" else GlobeBarrel
+        return globe(dn=dn, spokes=make.spokes, turn=turn, wheel=make.wheel)
+    if kind == "gate":
+        return OutsideYoke(dn=dn, spokes=make.spokes, turn=turn, wheel=make.wheel)
+    if kind == "butterfly":
+        geared = dn >= _GEARED if make.gearbox is None else make.gearbox
+        return (WaferGear if geared else WaferLever)(dn=dn, spokes=min(make.spokes, 4))
+    return SwingCheck(dn=dn)
 
 
 def meter_at(s: float, unit: str, dn: int) -> Inline:
     """A flow meter with its middle at a chainage [m]."""
-    return Inline(s, partial(_meter, unit=unit, dn=dn), unit)
+    return inline_at(s, MagneticMeter(dn=dn), unit)
 
 
 def strainer_at(s: float, dn: int) -> Inline:
     """A basket strainer with its middle at a chainage [m], its lid on top; no unit of its own."""
-    return Inline(s, partial(_strainer, dn=dn))
+    return inline_at(s, Basket(dn=dn))
 
 
 def tee_at(s: float, junction: str, dn: int, branch: int, roll: float = 0.0) -> Inline:
     """A tee with its middle at a chainage [m], its branch at ``roll`` from the run's z."""
-    return Inline(s, partial(_tee, dn=dn, branch=branch), roll=roll, welded=True, junction=junction)
+    return inline_at(s, Tee(dn=dn, branch=branch), roll=roll, junction=junction)
 
 
 def reducer_at(s: float, dn: int, other: int) -> Inline:
     """A reducer with its middle at a chainage [m]; the run goes on in the other size."""
-    return Inline(s, partial(_reducer, dn=dn, other=other), welded=True, dn=other)
+    return inline_at(s, Reducer(dn=dn, small=other), dn=other)
 
 
 def eccentric_at(s: float, dn: int, other: int) -> Inline:
     """A reducer with a flat top, its middle at a chainage [m]; the run's route goes on higher, see ``Route.jog``."""
-    return Inline(s, partial(_eccentric, dn=dn, other=other), welded=True, dn=other)
-
-
-def gauge_tap(s: float, unit: str, rng: np.random.Generator, size: int = 63, turn: float = 0.0) -> Tap:
-    """A pressure gauge upright on a level pipe; ``turn`` of its dial [rad]."""
-    build: Callable[[ModelingStyle], Assembly] = partial(
-        _gauge,
-        unit=unit,
-        size=size,
-        turn=turn,
-        needle=float(rng.uniform(0.6, 2.6)),
-        height=0.075 if size < 100 else 0.09,
-    )
-    return Tap(s, build, unit)
-
-
-def _valve(style: ModelingStyle, kind: str, unit: str, dn: int, options: Mapping[str, Any]) -> Device:
-    built = VALVES[kind](unit, dn, style, **options)
-    return in_primitives(built, dn, style) if style.devices == "primitives" else built
-
-
-def _meter(style: ModelingStyle, unit: str, dn: int) -> Device:
-    return flow_meter(unit, dn, style)
-
-
-def _strainer(style: ModelingStyle, dn: int) -> Device:
-    return strainer(dn, style)
-
-
-def _tee(style: ModelingStyle, dn: int, branch: int) -> Device:
-    return tee(dn, branch, style)
-
-
-def _reducer(style: ModelingStyle, dn: int, other: int) -> Device:
-    return reducer(dn, other, style)
-
-
-def _eccentric(style: ModelingStyle, dn: int, other: int) -> Device:
-    return eccentric_reducer(dn, other, style)
-
-
-def _gauge(style: ModelingStyle, unit: str, size: int, turn: float, needle: float, height: float) -> Assembly:
-    return pressure_gauge(unit, style, size, height, turn, needle)
+    return inline_at(s, EccentricReducer(dn=dn, small=other), dn=other)

@@ -188,21 +188,8 @@ def _set(work: _Work, item: Inline, device: Device, pose: Floats) -> tuple[int, 
         work.devices[item.unit or item.junction] = work.count
     if any(unit.id == item.unit and unit.kind in ONE_WAY for unit in device.assembly.units):
         work.one_way[item.unit] = not item.reverse
-    work.follow(_named(item, device, work.style).placed(pose), inlet, outlet_)
+    work.follow(device.assembly.placed(pose), inlet, outlet_)
     return inlet, outlet_
-
-
-def _named(item: Inline, device: Device, style: ModelingStyle) -> Assembly:
-    """The device with its family and granularity where its builder leaves them open."""
-    kind = device.assembly.units[0].kind if device.assembly.units else ""
-    grain = style.valve if kind.endswith("valve") else ""
-    return replace(
-        device.assembly,
-        components=tuple(
-            replace(c, family=c.family or item.family or kind, granularity=c.granularity or grain)
-            for c in device.assembly.components
-        ),
-    )
 
 
 def _wafer(work: _Work, item: Inline, device: Device, frame: Floats, first: int) -> None:
@@ -383,9 +370,4 @@ def _tap(work: _Work, laid: Laid, tap: Tap) -> None:
     foot = work.add(outlet(dn, work.style, height=OUTLET_HEIGHT).placed(frame))
     work.joints.append((laid.at(tap.s), foot))
     top = frame @ at(0, 0, PIPES[dn].radius + OUTLET_HEIGHT)
-    gauge = tap.build(work.style)
-    kind = gauge.units[0].kind if gauge.units else ""
-    named = (
-        replace(c, family=c.family or kind, granularity=c.granularity or work.style.gauge) for c in gauge.components
-    )
-    work.joints.append((foot, work.add(replace(gauge, components=tuple(named)).placed(top))))
+    work.joints.append((foot, work.add(tap.build(work.style).placed(top))))

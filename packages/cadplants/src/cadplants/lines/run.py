@@ -27,7 +27,6 @@ class Inline:
         welded: whether it is butt-welded (tees, reducers) instead of flanged.
         junction: id of the junction that it makes (tees), or "".
         dn: nominal size of the run behind it (reducers); 0 as before.
-        family: what it is built as, for the truth; "" leaves what the builder says.
     """
 
     s: float
@@ -38,7 +37,6 @@ class Inline:
     welded: bool = False
     junction: str = ""
     dn: int = 0
-    family: str = ""
 
 
 @dataclass(frozen=True)

@@ -51,23 +51,6 @@ class Brand:
     globe: Literal["sphere", "barrel"] = "sphere"
     gearbox: bool | None = None
 
-    def options(self, kind: str, turn: float = 0.0) -> Mapping[str, Any]:
-        """What the builder of a kind of valve is told; ``turn`` of wheel or lever [rad]."""
-        if kind == "ball":
-            return {"turn": turn, "lever": self.lever, "build": self.ball}
-        if kind == "globe":
-            return {"turn": turn, "wheel": self.wheel, "spokes": self.spokes, "build": self.globe}
-        if kind == "gate":
-            return {"turn": turn, "wheel": self.wheel, "spokes": self.spokes}
-        if kind == "butterfly":
-            return {"gearbox": self.gearbox, "spokes": min(self.spokes, 4)}
-        return {}
-
-    def design(self, kind: str) -> str:
-        """Family and build of a kind of valve, for the truth."""
-        build = {"ball": self.ball, "globe": self.globe}.get(kind, "")
-        return f"{kind} valve/{build}" if build else f"{kind} valve"
-
 
 def draw_brand(rng: np.random.Generator) -> Brand:
     """One manufacturer at random."""

@@ -19,7 +19,7 @@ from cadplants.solids.mesh_ops import Solid, box, extrude, revolve, weld
 from cadplants.solids.transforms import at, looking, spun
 from cadplants.styles.modeling_style import ModelingStyle
 
-__all__ = ["drum"]
+__all__ = ["drum", "drum_reach"]
 
 _WALL = 0.006  # m
 _STRAIGHT = 0.04  # m, straight flange of a 2:1 head (ASME BPVC VIII-1, UG-32)
@@ -59,7 +59,7 @@ def _saddle_solid(radius: float, axis: float, sides: int) -> Solid:
 
 def drum(
     unit: str, style: ModelingStyle, radius: float, length: float, clearance: float, nozzles: Sequence[Nozzle]
-) -> tuple[Tank, float]:
+) -> Tank:
     """A lying tank along y about z, on two saddles on the ground.
 
     Args:
@@ -70,9 +70,6 @@ def drum(
         clearance: from the ground to the lowest point of the shell [m].
         nozzles: in the order of the result; ``top`` ones at x and y, ``right`` (+x) and ``left`` (-x) ones at y and
             height over the axis [m].
-
-    Returns:
-        The tank; and half its length over the heads [m].
     """
     sides = 16 if style.sides[1] <= 16 else 72
     axis = clearance + radius
@@ -104,14 +101,13 @@ def drum(
         flanges.append(count + 1)
         count += len(part.components)
     whole = gather(parts, joints)
-    named = tuple(
-        replace(c, unit=unit if c.group == group else "", family="tank/drum", granularity="pieces")
-        for c in whole.components
-    )
-    top = axis + radius
-    return Tank(
-        replace(whole, components=named), tuple(faces), tuple(flanges), top
-    ), length / 2 + _STRAIGHT + radius / 2
+    named = tuple(replace(c, unit=unit if c.group == group else "", granularity="pieces") for c in whole.components)
+    return Tank(replace(whole, components=named), tuple(faces), tuple(flanges), axis + radius)
+
+
+def drum_reach(radius: float, length: float) -> float:
+    """Half the length of a lying tank over its heads [m]; ``length`` of its shell [m]."""
+    return length / 2 + _STRAIGHT + radius / 2
 
 
 def _saddle(style: ModelingStyle, radius: float, axis: float, sides: int) -> Assembly:

@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import cache
-from zlib import crc32
 
 import numpy as np
 
 from cadplants.model.contacts import met
-from cadplants.model.plant import Assembly, Component, Device
+from cadplants.model.plant import Assembly, Component, Device, Unit
 from cadplants.model.standards import FLANGES, GAUGES, PIPES
 from cadplants.solids.mesh_ops import Solid, about_x, box, merge, moved, revolve, weld
 from cadplants.solids.transforms import IDENTITY, at, spun
 from cadplants.styles.modeling_style import ModelingStyle
 
-__all__ = ["cylinder", "gauge_of_primitives", "in_primitives", "pump_of_primitives"]
+__all__ = ["cylinder", "gauge_of_primitives", "pump_of_primitives", "valve_of_primitives"]
 
 _PLATE = 0.012  # m; thickness of the discs that stand for a device's own flanges
 
@@ -26,34 +24,38 @@ def cylinder(radius: float, low: float, high: float, sides: int) -> Solid:
     return weld([revolve([(0.0, low), (radius, low), (radius, high), (0.0, high)], sides)])
 
 
-def in_primitives(device: Device, dn: int, style: ModelingStyle) -> Device:
-    """A valve drawn as two cones or one cylinder, with a cylinder for its spindle; its id decides in how many meshes.
+def valve_of_primitives(
+    unit: str, kind: str, dn: int, length: float, wafer: bool, form: int, style: ModelingStyle
+) -> Device:
+    """A valve drawn as two cones or one cylinder, with a cylinder for its spindle.
 
     Args:
-        device: as it would be built; length, unit and kind stay.
+        unit: its id.
+        kind: of valve that it stands for.
         dn: nominal size.
+        length: face to face [m].
+        wafer: whether it is held between flanges; it is a cylinder then, with its spindle in a mesh of its own.
+        form: 0 cones and spindle in one mesh, 1 in three, 2 a cylinder alone, 3 cones with flanges in one mesh.
         style: that models it.
     """
-    unit = device.assembly.units[0]
-    form = crc32(unit.id.encode()) % 4
-    size, radius, length = FLANGES[dn], PIPES[dn].radius, device.length
+    size, radius = FLANGES[dn], PIPES[dn].radius
     sides = style.round(size.outer / 2)
     spindle = moved(cylinder(0.35 * radius, 0.0, 1.6 * radius + 0.10, sides), at(length / 2))
-    if device.wafer or form == 2:
+    if wafer or form == 2:
         barrel = about_x(cylinder(size.raised / 2 * 0.98, 0.0, length, sides))
-        solids = [(barrel, "valve body"), (spindle, "valve stem")] if device.wafer else [(barrel, "valve body")]
+        solids = [(barrel, "valve body"), (spindle, "valve stem")] if wafer else [(barrel, "valve body")]
     else:
         cone = _cone(size.raised / 2 * 0.96, 0.16 * radius, length / 2, sides, form == 3)
         back = moved(cone, at(length) @ spun("z", np.pi))
         solids = [(cone, "valve body"), (back, "valve body"), (spindle, "valve stem")]
-    if form != 1 and not device.wafer:
+    if form != 1 and not wafer:
         solids = [(merge([solid for solid, _ in solids]), "valve")]
     parts = tuple(
-        Component(solid, "Valve assembly", name, style.color("valve"), unit=unit.id, granularity="pieces")
+        Component(solid, "Valve assembly", name, style.color("valve"), unit=unit, granularity="pieces")
         for solid, name in solids
     )
     outlet = 1 if len(parts) == 3 else 0
-    return replace(device, assembly=met(Assembly(parts, (), device.assembly.units)), inlet=0, outlet=outlet)
+    return Device(met(Assembly(parts, (), (Unit(unit, "valve", kind),))), length, 0, outlet, wafer)
 
 
 @cache

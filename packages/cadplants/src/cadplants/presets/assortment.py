@@ -361,8 +361,18 @@ def _narrowed(
         item, more = _item(work.of("device"), style, reducer.dn, low + x)
         items.append(replace(item, dn=0))
         x += more + float(rng.uniform(0.15, 0.5))
-    back = Inline(low + x + length / 2, reducer.build, reverse=True, welded=True, dn=dn)
+    build = partial(_once_more, reducer.build) if reducer.build is not None else None
+    back = Inline(low + x + length / 2, build, reverse=True, welded=True, dn=dn)
     return [*items, back], x + length
+
+
+def _once_more(build: Callable[[ModelingStyle], Device], style: ModelingStyle) -> Device:
+    """A second device like one that stands already: what it is built from is recorded of each by itself."""
+    device = build(style)
+    components = device.assembly.components
+    said = next((dict(c.params) for c in components if c.params is not None), None)
+    own = tuple(replace(c, params=said) for c in components)
+    return replace(device, assembly=replace(device.assembly, components=own))
 
 
 def _ended(line: Assembly, run: Run, endings: Iterable[tuple[int, list[Assembly]]]) -> Assembly:

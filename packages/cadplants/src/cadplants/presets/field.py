@@ -10,13 +10,22 @@ import numpy as np
 
 from cadplants.builder.params import Apart
 from cadplants.families import FAMILIES
+from cadplants.families.preset_devices import (
+    Cabinet,
+    Fence,
+    Gate,
+    Lamp,
+    ManwayTank,
+    Opening,
+    Pillar,
+    Platform,
+    PlatformWithStairs,
+    Sign,
+)
 from cadplants.model.contacts import on_ground, whole
 from cadplants.model.family import as_assembly
 from cadplants.model.plant import Assembly, Component, Plant, gather
-from cadplants.parts.access import platform, platform_with_stairs
-from cadplants.parts.electrical import cabinet, lamp, sign
-from cadplants.parts.enclosure import fence, pillar
-from cadplants.parts.vessel import Nozzle, tank
+from cadplants.parts.vessel import Nozzle
 from cadplants.presets.gauged_tank import with_level_gauge
 from cadplants.presets.pumps import make_pumps
 from cadplants.presets.rack import make_rack
@@ -89,19 +98,22 @@ def _inside(style: ModelingStyle, flips: tuple[int, int], rng: np.random.Generat
 
     round_y = np.pi if flips[1] < 0 else 0.0
     to_side = -np.pi / 2 * flips[0]
-    deck = platform(2.4, 1.2, float(rng.uniform(1.0, 1.4)), style)
+    deck = Platform(length=2.4, width=1.2, floor=float(rng.uniform(1.0, 1.4)), opened=False, opening=0.0)
+    stepped = PlatformWithStairs(length=4.0, width=1.6, floor=2.1, opening=0.9)
     found = [
-        placed(platform_with_stairs(4.0, 1.6, 2.1, style, 0.9), 0.2, 1.1, round_y, "platform"),
-        placed(deck, -3.6, 1.3, 0.0, "deck"),
+        placed(stepped.as_assembly(style), 0.2, 1.1, round_y, "platform"),
+        placed(deck.as_assembly(style), -3.6, 1.3, 0.0, "deck"),
         placed(_storage(style, rng).prefixed("S"), 6.0, 0.4, 0.0, "storage"),
         placed(_ladder(style, rng), 7.9, 0.6, 0.0, "ladder"),
     ]
     for k, (x, y) in enumerate(((9.9, -1.2), (9.9, 0.2))):
-        plates = ((f"PANEL LP-{k + 1}", "400 V 50 HZ"), ("DANGER", "HIGH VOLTAGE"), ("MAIN SWITCH",))
-        found.append(placed(cabinet(style, plates=plates), x, y, to_side, f"cabinet-{k}"))
+        text = f"PANEL LP-{k + 1}|400 V 50 HZ||DANGER|HIGH VOLTAGE||MAIN SWITCH"
+        panel = Cabinet(width=0.8, depth=0.4, height=1.9, text=text).as_assembly(style)
+        found.append(placed(panel, x, y, to_side, f"cabinet-{k}"))
     for k, (x, y) in enumerate(((-10.2, 3.0), (10.2, 7.4))):
-        found.append(placed(lamp(style), x, y, 0.0, f"lamp-{k}"))
-    found.append(placed(sign(style, ("TEST FIELD", "HELMETS ON", "NO SMOKING")), -9.9, -4.3, 0.0, "sign"))
+        found.append(placed(Lamp(height=4.0).as_assembly(style), x, y, 0.0, f"lamp-{k}"))
+    warning = Sign(text="TEST FIELD|HELMETS ON|NO SMOKING").as_assembly(style)
+    found.append(placed(warning, -9.9, -4.3, 0.0, "sign"))
     return found
 
 
@@ -114,12 +126,11 @@ def _storage(style: ModelingStyle, rng: np.random.Generator) -> Assembly:
         Nozzle(80, "side", (np.pi, 0.25), 0.16),
         Nozzle(300, "side", (np.pi / 2, 0.7), 0.2, manway=True),
     ]
-    vessel = tank("T-9", style, radius, height, 0.35, nozzles).assembly
+    upright = ManwayTank(radius=radius, height=height, clearance=0.35, legs=4, nozzles=tuple(map(Opening.of, nozzles)))
+    vessel = upright.as_assembly(style, "T-9")
     low = 0.35 + radius / 2 + 0.04
-    family = FAMILIES["tank/dished on legs"]
     span = low + 0.3, low + height - 0.3
-    both = with_level_gauge(vessel, "T-9", "G-9", radius, -0.3 * np.pi, span, style, rng)
-    return replace(both, components=tuple(replace(c, family=c.family or family.name) for c in both.components))
+    return with_level_gauge(vessel, "T-9", "G-9", radius, -0.3 * np.pi, span, style, rng)
 
 
 def _ladder(style: ModelingStyle, rng: np.random.Generator) -> Assembly:
@@ -132,6 +143,7 @@ def _ladder(style: ModelingStyle, rng: np.random.Generator) -> Assembly:
 def _yard(style: ModelingStyle, flips: tuple[int, int]) -> list[Assembly]:
     """Panels round the yard, a gate in its front side, and pillars at its corners; all apart from each other."""
     parts = []
+    corner = Pillar(side=0.45, height=1.7)
     for axis, turn in ((0, 0.0), (1, np.pi / 2)):
         along, across = _HALF[axis], _HALF[1 - axis]
         clear = along - 0.45
@@ -141,10 +153,12 @@ def _yard(style: ModelingStyle, flips: tuple[int, int]) -> list[Assembly]:
             for k in range(count):
                 where = -clear + (k + 0.5) * pitch
                 gate = axis == 0 and side * flips[1] < 0 and k == count // 2
-                panel = fence(pitch - 0.05, style, pitch=_BARS, gate=gate)
+                kind = Gate if gate else Fence
+                panel = kind(length=pitch - 0.05, height=1.10, pitch=_BARS).as_assembly(style)
                 place = (where, side * across) if axis == 0 else (side * across, where)
                 parts.append(panel.placed(at(*place) @ spun("z", turn)).marked(cluster=f"fence-{axis}-{side}-{k}"))
     for sx in (-1, 1):
         for sy in (-1, 1):
-            parts.append(pillar(style).placed(at(sx * _HALF[0], sy * _HALF[1])).marked(cluster=f"pillar-{sx}-{sy}"))
+            pillar = corner.as_assembly(style).placed(at(sx * _HALF[0], sy * _HALF[1]))
+            parts.append(pillar.marked(cluster=f"pillar-{sx}-{sy}"))
     return parts

@@ -6,15 +6,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from cadplants.families.preset_devices import Ladder, Platform, PlatformWithStairs, Post
 from cadplants.lines.choice import Choice
 from cadplants.lines.route import Route
 from cadplants.lines.run import Inline, Run, Tap
 from cadplants.model.plant import Plant
 from cadplants.model.standards import PIPES
-from cadplants.parts.access import ladder, platform, platform_with_stairs
 from cadplants.parts.brand import Brand, draw_brand, dressed
 from cadplants.parts.fastener import SUPPORT_REACH
-from cadplants.parts.structure import post
 from cadplants.presets.site import Site
 from cadplants.solids.transforms import at
 from cadplants.styles.modeling_style import ModelingStyle
@@ -83,12 +82,14 @@ def make_gallery(seed: int = 0, style: ModelingStyle | None = None) -> Plant:
         site.cluster = f"platform-{name}"
         long = 2 * plan.half - 1.2
         if name == "A":
-            steps = platform_with_stairs(long, plan.width, plan.floor, style, 0.5 * long - 0.8)
-            site.add(steps.placed(at(0, middle)))
+            steps = PlatformWithStairs(length=long, width=plan.width, floor=plan.floor, opening=0.5 * long - 0.8)
+            site.add(steps.as_assembly(style).placed(at(0, middle)))
         elif name == "B":
-            site.add(platform(long, plan.width, plan.floor, style, 0.0).placed(at(0, middle)))
+            floor = Platform(length=long, width=plan.width, floor=plan.floor, opened=True, opening=0.0)
+            site.add(floor.as_assembly(style).placed(at(0, middle)))
             site.cluster = "ladder"
-            site.add(ladder(plan.floor, style).placed(at(0, middle - plan.width / 2 - 0.12)))
+            rungs = Ladder(floor=plan.floor).as_assembly(style)
+            site.add(rungs.placed(at(0, middle - plan.width / 2 - 0.12)))
     return site.plant("gallery", seed, style)
 
 
@@ -111,5 +112,6 @@ def _line(
     placed = site.lay(Run(f"L-{name}", plan.dn, route, inline, taps, ends=("blind", "blind")), style)
     height = high - PIPES[plan.dn].radius - SUPPORT_REACH
     for x in (-half + 0.45, half - 0.45):
-        stand = site.add(post(height, style, 0.06, capped=True).placed(at(x, y, 0)))
+        upright = Post(height=height, side=0.06, capped=True).as_assembly(style)
+        stand = site.add(upright.placed(at(x, y, 0)))
         site.support(placed, float(over + half + x), stand + 2, style)

@@ -6,10 +6,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from cadplants.families.vessels.vessel import level_gauge
+from cadplants.families.preset_devices import CockGauge
+from cadplants.families.vessels.vessel import LevelGauge
 from cadplants.model.contacts import met
-from cadplants.model.plant import Assembly, Component, Connection, Unit, gather
-from cadplants.parts.vessel import skin
+from cadplants.model.plant import Assembly, Connection, gather
 from cadplants.styles.modeling_style import ModelingStyle
 
 __all__ = ["with_level_gauge"]
@@ -33,16 +33,10 @@ def with_level_gauge(
         style: how it is modelled.
         rng: draws the gauge.
     """
-    components = tuple(
-        Component(
-            p.solid, p.group, p.name, style.color(p.color), unit=gauge, family="level gauge", granularity="pieces"
-        )
-        for p in level_gauge(skin(radius, angle, style), *span, angle, style, rng)
-    )
+    low, high = span
+    beside = CockGauge(shell=radius, around=angle, low=low, high=high, gauge=LevelGauge.draw(rng))
     hangs = Connection(tank, gauge, "", 0.0, _COCK / 1000)
-    both = met(
-        gather([vessel, Assembly(components, units=(Unit(gauge, "gauge", "level gauge"),), connections=(hangs,))])
-    )
+    both = met(gather([vessel, replace(beside.as_assembly(style, gauge), connections=(hangs,))]))
     # The builder of the tank says what touches within it; the gauge's are those that its surfaces have.
     mine = tuple(pair for pair in both.contacts if pair[1] >= len(vessel.components))
     return replace(both, contacts=(*vessel.contacts, *mine))

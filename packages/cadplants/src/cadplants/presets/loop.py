@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from cadplants.families.preset_devices import EndSuction, Post
 from cadplants.lines.choice import Choice
 from cadplants.lines.instrument import eccentric_at, reducer_at, tee_at
 from cadplants.lines.route import Route
@@ -14,8 +15,7 @@ from cadplants.model.plant import Assembly, Component, Plant
 from cadplants.model.standards import PIPES, REDUCER_LENGTH, TEE_CENTER_TO_END
 from cadplants.parts.brand import Brand, draw_brand, dressed
 from cadplants.parts.fastener import SUPPORT_REACH
-from cadplants.parts.pump import Pump, pump
-from cadplants.parts.structure import post
+from cadplants.parts.pump import Pump
 from cadplants.presets.site import Placed, Site, Work
 from cadplants.solids.mesh_ops import Solid, box
 from cadplants.solids.transforms import at
@@ -136,7 +136,7 @@ def make_loop(seed: int = 0, style: ModelingStyle | None = None) -> Plant:
     choice = Choice(draw_brand(rng) if seed else Brand(), "few")
     plan = _draw(rng) if seed else _Plan()
     sizes = plan.sizes
-    pumps = [pump(f"P-{k + 1}", sizes.inlet, sizes.outlet, style) for k in range(2)]
+    pumps = [EndSuction(dn=sizes.inlet, out=sizes.outlet).pump(f"P-{k + 1}", style) for k in range(2)]
     rise = PIPES[sizes.suction].radius - PIPES[sizes.inlet].radius
     work = _Work(Site("loop"), style, choice, plan, rng, float(pumps[0].suction[2, 3]) - rise)
     line = _line(work)
@@ -195,9 +195,9 @@ def _line(work: _Work) -> Placed:
     run = Run("H", sizes.supply, route, tuple(inline), taps, ends=ends, flow="forward", reason=reason)
     placed = work.site.lay(run, work.style)
     for y in (0.0, plan.pumps[1] + 1.45):
-        _stand(work, placed, there(y), 0.08)
+        work.site.stand(placed, there(y), work.style, 0.08)
     for y in (0.0, plan.pumps[1] + 0.45, plan.consumer(plan.consumers - 1) + 0.40):
-        _stand(work, placed, again(y))
+        work.site.stand(placed, again(y), work.style)
     return placed
 
 
@@ -326,7 +326,8 @@ def _passing(work: _Work, line: Placed) -> None:
     solid = box((right - left, 0.18, 0.10), ((left + right) / 2, middle, top - 0.05))
     beam = work.site.add(_body(solid, "Structural element", "beam", work.style.color("steel")))
     for x in (left + 0.10, right - 0.10):
-        stand = work.site.add(post(top - 0.10, work.style, 0.08, capped=True).placed(at(x, middle, 0)))
+        upright = Post(height=top - 0.10, side=0.08, capped=True).as_assembly(work.style)
+        stand = work.site.add(upright.placed(at(x, middle, 0)))
         work.site.join(stand + 2, beam)
     # Beside the supply there is no room for a bracket; past its bend there is.
     near, far = 0.22, 0.40 * plan.back_x
@@ -338,12 +339,3 @@ def _passing(work: _Work, line: Placed) -> None:
 
 def _body(solid: Solid, group: str, name: str, color: tuple[float, float, float]) -> Assembly:
     return Assembly((Component(solid, group, name, color),))
-
-
-def _stand(work: _Work, placed: Placed, s: float, side: float = 0.05) -> None:
-    """A post that holds a run at a chainage."""
-    run = placed.laid.run
-    x, y, z = (float(v) for v in run.route.point(s))
-    height = z - PIPES[run.dn_at(s)].radius - SUPPORT_REACH
-    base = work.site.add(post(height, work.style, side, capped=True).placed(at(x, y, 0.0)))
-    work.site.support(placed, s, base + 2, work.style)

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from cadplants.families.preset_devices import Post
 from cadplants.lines.choice import Choice
 from cadplants.lines.instrument import tee_at
 from cadplants.lines.route import Route
@@ -14,7 +15,6 @@ from cadplants.model.plant import Plant
 from cadplants.model.standards import PIPES, TEE_CENTER_TO_END
 from cadplants.parts.brand import Brand, draw_brand, dressed
 from cadplants.parts.fastener import SUPPORT_REACH
-from cadplants.parts.structure import post
 from cadplants.presets.site import Placed, Site, Work
 from cadplants.solids.transforms import at
 from cadplants.styles.modeling_style import ModelingStyle
@@ -118,7 +118,8 @@ def _header(work: _Work, tag: str, dn: int, y: float, z: float) -> Placed:
     placed = work.site.lay(run, work.style)
     for x in (-0.28, *((a + b) / 2 for a, b in zip(plan.xs[:-1:2], plan.xs[1::2], strict=False)), plan.xs[-1] + 0.50):
         height = z - PIPES[dn].radius - SUPPORT_REACH
-        stand = work.site.add(post(height, work.style, 0.06, capped=True).placed(at(x, y, 0)))
+        upright = Post(height=height, side=0.06, capped=True).as_assembly(work.style)
+        stand = work.site.add(upright.placed(at(x, y, 0)))
         work.site.support(placed, x - low, stand + 2, work.style)
     return placed
 

@@ -6,17 +6,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cadplants.lines.choice import Choice
+from cadplants.families.preset_devices import EndSuction, NamePlate, Post
+from cadplants.lines.choice import draw_choice
 from cadplants.lines.instrument import strainer_at, tee_at
 from cadplants.lines.route import Route
 from cadplants.lines.run import Inline, Run
 from cadplants.model.plant import Plant
 from cadplants.model.standards import PIPES, TEE_CENTER_TO_END
-from cadplants.parts.brand import Brand, draw_brand, dressed
-from cadplants.parts.detail import Marks, plate
+from cadplants.parts.brand import dressed
+from cadplants.parts.detail import Marks
 from cadplants.parts.fastener import SUPPORT_REACH
-from cadplants.parts.pump import Pump, pump
-from cadplants.parts.structure import post
+from cadplants.parts.pump import Pump
 from cadplants.presets.site import Placed, Site, Work
 from cadplants.solids.transforms import at, spun
 from cadplants.styles.modeling_style import ModelingStyle
@@ -70,9 +70,7 @@ def make_pumps(
     """
     rng = np.random.default_rng([seed, 4])
     style = dressed(style, rng, seed, _USUAL)
-    make = draw_brand(rng)
-    drawn = marks or ("few", "none", "few", "all")[int(rng.integers(4))]
-    choice = Choice(make if seed else Brand(), drawn if seed or marks else "few")
+    choice = draw_choice(rng, seed, marks)
     site = Site("pumps")
     plan = _Plan(
         count=n_pumps or (int(rng.integers(2, 5)) if seed else 3),
@@ -85,7 +83,7 @@ def make_pumps(
     work = _Work(site, style, choice, plan, rng)
     count, ys = plan.count, plan.ys
     suction_dn, pump_in, pump_out, discharge_dn = plan.sizes
-    pumps = [pump(f"P-{k + 1}", pump_in, pump_out, style) for k in range(count)]
+    pumps = [EndSuction(dn=pump_in, out=pump_out).pump(f"P-{k + 1}", style) for k in range(count)]
     axis = float(pumps[0].suction[2, 3])
     to_pumps = np.pi / 2 * plan.side
     suction = _header(work, "S", (suction_dn, pump_in), (plan.suction_x, axis), to_pumps)
@@ -127,10 +125,10 @@ def _header(work: _Work, tag: str, sizes: tuple[int, int], place: tuple[float, f
     run = Run(tag, dn, route, (*tees, valve), tuple(taps), ends=("blind", "flange"), flow=flow, reason=reason)
     placed = work.site.lay(run, work.style)
     height = z - PIPES[dn].radius - SUPPORT_REACH
-    side = 0.05 if height < 1 else 0.08
+    upright = Post(height=height, side=0.05 if height < 1 else 0.08, capped=True)
     for k in range(count + 1):
         y = ys[0] - 0.36 if k == 0 else ys[k - 1] + (0.5 * plan.pitch if k < count else 0.43)
-        stand = work.site.add(post(height, work.style, side, capped=True).placed(at(x, plan.side * y, 0)))
+        stand = work.site.add(upright.as_assembly(work.style).placed(at(x, plan.side * y, 0)))
         work.site.support(placed, y - low, stand + 2, work.style)
     return placed
 
@@ -201,5 +199,5 @@ def _name(site: Site, style: ModelingStyle, number: int, base: int, one: Pump, y
     bed = one.assembly.components[index].vertices
     low, high = bed.min(axis=0), bed.max(axis=0)
     place = at(float(low[0] + high[0]) / 2, y + float(low[1]), float(low[2] + high[2]) / 2) @ spun("x", np.pi / 2)
-    text = (f"PUMP P-{number}", "Q 42 H 38", "5.5 KW 2900")
-    site.add(plate(text, style, 0.007).placed(place), base + index)
+    text = NamePlate(text=f"PUMP P-{number}|Q 42 H 38|5.5 KW 2900", letter=0.007, rivets=4)
+    site.add(text.as_assembly(style).placed(place), base + index)

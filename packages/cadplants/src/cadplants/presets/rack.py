@@ -6,17 +6,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cadplants.lines.choice import Choice
+from cadplants.families.preset_devices import Column, NamePlate, Tray, beam_between
+from cadplants.lines.choice import draw_choice
 from cadplants.lines.instrument import meter_at, tee_at
 from cadplants.lines.route import Route
 from cadplants.lines.run import Inline, Run
 from cadplants.model.plant import Plant
 from cadplants.model.standards import PIPES, SECTIONS, TEE_CENTER_TO_END
-from cadplants.parts.brand import Brand, draw_brand, dressed
-from cadplants.parts.detail import Marks, plate
-from cadplants.parts.electrical import cable_tray
+from cadplants.parts.brand import dressed
+from cadplants.parts.detail import Marks
 from cadplants.parts.fastener import SUPPORT_REACH
-from cadplants.parts.structure import beam, column
 from cadplants.presets.site import Placed, Site, Work
 from cadplants.solids.transforms import at, looking
 from cadplants.styles.modeling_style import ModelingStyle
@@ -106,9 +105,7 @@ def make_rack(seed: int = 0, style: ModelingStyle | None = None, n_bays: int = 0
     """
     rng = np.random.default_rng([seed, 5])
     style = dressed(style, rng, seed, _USUAL)
-    make = draw_brand(rng)
-    drawn = marks or ("few", "none", "few", "all")[int(rng.integers(4))]
-    choice = Choice(make if seed else Brand(), drawn if seed or marks else "few")
+    choice = draw_choice(rng, seed, marks)
     site = Site("rack")
     plan = _draw(rng, n_bays) if seed else _Plan(bays=n_bays or 4)
     beams = [_frame(site, style, plan, k * plan.bay) for k in range(plan.bays + 1)]
@@ -118,7 +115,8 @@ def make_rack(seed: int = 0, style: ModelingStyle | None = None, n_bays: int = 0
     work = _Work(site, style, choice, plan, rng)
     for k, level in enumerate(plan.levels):
         _line(work, k, [frame[:2][level] for frame in beams])
-    tray = site.add(cable_tray(plan.bays * plan.bay, style, pieces=plan.bays).placed(at(0, plan.tray, plan.tops[1])))
+    trough = Tray(width=0.3, length=plan.bays * plan.bay, cables=3, pieces=plan.bays).as_assembly(style)
+    tray = site.add(trough.placed(at(0, plan.tray, plan.tops[1])))
     for k in range(plan.bays):
         site.join(tray + k, beams[k][1])
         site.join(tray + k, beams[k + 1][1])
@@ -134,13 +132,14 @@ def _frame(site: Site, style: ModelingStyle, plan: _Plan, x: float) -> tuple[int
     shafts = []
     low, high = plan.tops
     for y in (-plan.half, plan.half):
-        shafts.append(site.add(column(high - height, style, _COLUMN).placed(at(x, y, 0))) + 1)
+        upright = Column(height=high - height, section=_COLUMN).as_assembly(style)
+        shafts.append(site.add(upright.placed(at(x, y, 0))) + 1)
     z = low - height / 2
     # The lower beam reaches between the columns' flanges to their webs, the upper one lies on their heads.
     inner, outer = plan.half - web / 2, plan.half + depth / 2
-    lower = site.add(beam(np.array([x, -inner, z]), np.array([x, inner, z]), style, _BEAM))
+    lower = site.add(beam_between((x, -inner, z), (x, inner, z), _BEAM, style))
     z = high - height / 2
-    upper = site.add(beam(np.array([x, -outer, z]), np.array([x, outer, z]), style, _BEAM))
+    upper = site.add(beam_between((x, -outer, z), (x, outer, z), _BEAM, style))
     for shaft in shafts:
         site.join(shaft, lower)
         site.join(shaft, upper)
@@ -151,7 +150,7 @@ def _tie(site: Site, style: ModelingStyle, plan: _Plan, x: float, y: float, near
     """A beam along x between the flanges of two columns."""
     half = SECTIONS[_COLUMN][0] / 2
     z = plan.tops[1] - 0.45
-    tie = site.add(beam(np.array([x + half, y, z]), np.array([x + plan.bay - half, y, z]), style, "IPE 160"))
+    tie = site.add(beam_between((x + half, y, z), (x + plan.bay - half, y, z), "IPE 160", style))
     site.join(near, tie)
     site.join(far, tie)
 
@@ -235,4 +234,5 @@ def _number(site: Site, style: ModelingStyle, plan: _Plan, beams: list[tuple[int
     for k, (_, _, shafts) in enumerate(beams):
         for side, shaft, row in ((-1, shafts[0], "A"), (1, shafts[1], "B")):
             x = looking((k * plan.bay - depth / 2, side * plan.half, 1.6), (0, -1, 0), (-1, 0, 0))
-            site.add(plate((f"{row}{k + 1}", "MAX 2 T"), style, 0.008).placed(x), shaft)
+            text = NamePlate(text=f"{row}{k + 1}|MAX 2 T", letter=0.008, rivets=4)
+            site.add(text.as_assembly(style).placed(x), shaft)

@@ -6,22 +6,20 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cadplants.lines.choice import Choice
+from cadplants.families.preset_devices import Caster, Deck, NamePlate, Post
+from cadplants.lines.choice import Choice, draw_choice
 from cadplants.lines.route import Route
 from cadplants.lines.run import Inline, Run, Tap
 from cadplants.model.plant import Plant
 from cadplants.model.standards import PIPES
-from cadplants.parts.brand import Brand, draw_brand, dressed
-from cadplants.parts.detail import Marks, plate
+from cadplants.parts.brand import dressed
+from cadplants.parts.detail import Marks
 from cadplants.parts.fastener import SUPPORT_REACH
 from cadplants.parts.structure import (
     CASTER_HEIGHT,
     CHANNEL_WIDTH,
     DECK_HEIGHT,
     DECK_INSET,
-    caster,
-    deck,
-    post,
 )
 from cadplants.presets.site import Site
 from cadplants.solids.transforms import at
@@ -96,9 +94,7 @@ def make_riser(seed: int = 0, style: ModelingStyle | None = None, marks: Marks |
     """
     rng = np.random.default_rng([seed, 2])
     style = dressed(style, rng, seed, _USUAL)
-    make = draw_brand(rng)
-    drawn = marks or ("few", "none", "few", "all")[int(rng.integers(4))]
-    choice = Choice(make if seed else Brand(), drawn if seed or marks else "none")
+    choice = draw_choice(rng, seed, marks, "none")
     plan = _draw(rng) if seed else _Plan()
     site = Site("riser")
     bed = _bed(site, style, plan, rng)
@@ -117,8 +113,8 @@ def make_riser(seed: int = 0, style: ModelingStyle | None = None, marks: Marks |
             run = _run(f"R{number + 1}", points, plan, number, choice, rng)
             site.lay(run, style, [bed], [bed])
     if marks == "all":
-        text = plate(("S-2 RISER", f"DN{plan.dn} PN16"), style, 0.010)
-        site.add(text.placed(at(0, -plan.half - plan.margin[1] / 2, _TOP)), bed)
+        text = NamePlate(text=f"S-2 RISER|DN{plan.dn} PN16", letter=0.010, rivets=4)
+        site.add(text.as_assembly(style).placed(at(0, -plan.half - plan.margin[1] / 2, _TOP)), bed)
     return site.plant("riser", seed, style)
 
 
@@ -126,12 +122,13 @@ def _bed(site: Site, style: ModelingStyle, plan: _Plan, rng: np.random.Generator
     """Plate and casters; returns the index of the plate."""
     length = 2 * (plan.rows[-1] + plan.margin[0])
     width = 2 * (plan.half + plan.margin[1])
-    bed = site.add(deck(length, width, style).placed(at(0, 0, _TOP)))
+    bed = site.add(Deck(length=length, width=width).as_assembly(style).placed(at(0, 0, _TOP)))
     rail = width / 2 - DECK_INSET - CHANNEL_WIDTH / 2
     for sx in (-1, 1):
         for sy in (-1, 1):
             place = at(sx * (length / 2 - 0.16), sy * rail, CASTER_HEIGHT)
-            site.add(caster(style, float(rng.uniform(0, 2 * np.pi))).placed(place), bed + (1 if sy < 0 else 2))
+            wheel = Caster(turn=float(rng.uniform(0, 2 * np.pi))).as_assembly(style)
+            site.add(wheel.placed(place), bed + (1 if sy < 0 else 2))
     return bed
 
 
@@ -148,7 +145,8 @@ def _chain(site: Site, style: ModelingStyle, plan: _Plan, bed: int, choice: Choi
     starts = placed.laid.run.route.starts
     height = low - PIPES[plan.dn].radius - SUPPORT_REACH
     for corner, (a, b, y) in ((3, (first, second, h)), (7, (second, third, -h))):
-        stand = site.add(post(height, style, 0.04, capped=True).placed(at((a + b) / 2, y, _TOP)), bed)
+        upright = Post(height=height, side=0.04, capped=True).as_assembly(style)
+        stand = site.add(upright.placed(at((a + b) / 2, y, _TOP)), bed)
         site.support(placed, float(starts[corner] + starts[corner + 1]) / 2, stand + 2, style)
 
 

@@ -6,9 +6,11 @@ import difflib
 from collections.abc import Mapping
 from typing import Any, cast
 
+import numpy as np
+
 from cadplants.builder.device import Device, Maker
 from cadplants.model.contacts import measured, met
-from cadplants.model.family import Family, as_assembly, as_device
+from cadplants.model.family import Family
 from cadplants.model.plant import Plant
 from cadplants.presets.taste import ALL_FAMILIES
 from cadplants.styles.modeling_style import STYLES, ModelingStyle
@@ -133,7 +135,12 @@ def rebuild(
 
 def _alone(family: Family, device: Device, style: ModelingStyle, seed: int) -> Plant:
     """A device as a plant of its own."""
-    model, unit = device.model(style), "X-1" if family.unit else ""
-    made = as_device(family, model, style, unit).assembly if family.place == "inline" else None
-    assembly = met(made or as_assembly(family, model, style, unit)).marked(cluster="device", style=style.name)
+    unit = "X-1" if family.unit else ""
+    try:
+        whole = device.as_device(style, unit).assembly if family.place == "inline" else device.as_assembly(style, unit)
+    except (ArithmeticError, LookupError, TypeError, ValueError) as error:
+        raise ValueError(f"{family.name}: these parameters do not fit each other ({error})") from error
+    if not all(np.isfinite(component.vertices).all() for component in whole.components):
+        raise ValueError(f"{family.name}: these parameters do not fit each other: they make no solid")
+    assembly = met(whole).marked(cluster="device", style=style.name)
     return measured(Plant.of(assembly, family.name, seed, [style]))

@@ -8,12 +8,14 @@ from typing import Generic, TypeVar
 
 import numpy as np
 
+from cadplants.families.preset_devices import PipeSupport, Post
 from cadplants.faults.defects import loosen
 from cadplants.lines.choice import Choice
 from cadplants.lines.layout import Laid, Run, lay
 from cadplants.model.plant import Assembly, Plant, gather
-from cadplants.parts.fastener import pipe_support
-from cadplants.solids.transforms import spun
+from cadplants.model.standards import PIPES
+from cadplants.parts.fastener import SUPPORT_REACH
+from cadplants.solids.transforms import at, spun
 from cadplants.styles.modeling_style import ModelingStyle
 
 __all__ = ["Placed", "Site", "Work"]
@@ -98,10 +100,30 @@ class Site:
         run = placed.laid.run
         # The bracket looks for its carrier at +y; a quarter turn brings that to -z.
         pose = run.route.frame(s, roll) @ spun("x", -np.pi / 2)
-        first = self.add(pipe_support(run.dn_at(s), style).placed(pose), carrier)
+        first = self.add(PipeSupport(dn=run.dn_at(s)).as_assembly(style).placed(pose), carrier)
         self.join(placed.at(s), first)
         self.join(placed.at(s), first + 1)
         return first
+
+    def stand(self, placed: Placed, s: float, style: ModelingStyle, side: float = 0.05, floor: float = 0.0) -> int:
+        """Holds a run by a U-bolt on a post.
+
+        Args:
+            placed: the run.
+            s: chainage, on a level pipe.
+            style: that models it.
+            side: of the post's section [m].
+            floor: height of what it stands on [m].
+
+        Returns:
+            Index of the post's base plate.
+        """
+        run = placed.laid.run
+        x, y, z = (float(v) for v in run.route.point(s))
+        height = z - floor - PIPES[run.dn_at(s)].radius - SUPPORT_REACH
+        base = self.add(Post(height=height, side=side, capped=True).as_assembly(style).placed(at(x, y, floor)))
+        self.support(placed, s, base + 2, style)
+        return base
 
     def plant(self, name: str, seed: int, style: ModelingStyle) -> Plant:
         """The finished plant, with the gaps and unevenness of its style."""

@@ -6,16 +6,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cadplants.lines.choice import Choice
+from cadplants.families.preset_devices import Caster, Deck, NamePlate, Post
+from cadplants.lines.choice import Choice, draw_choice
 from cadplants.lines.route import Route
 from cadplants.lines.run import Inline, Run, Tap
 from cadplants.model.plant import Plant
 from cadplants.model.standards import PIPES
-from cadplants.parts.brand import Brand, draw_brand, dressed
-from cadplants.parts.detail import Marks, plate
+from cadplants.parts.brand import dressed
+from cadplants.parts.detail import Marks
 from cadplants.parts.fastener import SUPPORT_REACH
 from cadplants.parts.flange import GASKET, flange_length
-from cadplants.parts.structure import CASTER_HEIGHT, CHANNEL_WIDTH, DECK_HEIGHT, DECK_INSET, caster, deck, post
+from cadplants.parts.structure import CASTER_HEIGHT, CHANNEL_WIDTH, DECK_HEIGHT, DECK_INSET
 from cadplants.parts.valve import valve_length
 from cadplants.presets.site import Placed, Site
 from cadplants.solids.transforms import at, looking
@@ -112,33 +113,31 @@ def make_skid(seed: int = 0, style: ModelingStyle | None = None, marks: Marks | 
     """
     rng = np.random.default_rng([seed, 1])
     style = dressed(style, rng, seed, _USUAL)
-    make = draw_brand(rng)
-    drawn = marks or ("few", "none", "few", "all")[int(rng.integers(4))]
-    choice = Choice(make if seed else Brand(), drawn if seed or marks else "few")
+    choice = draw_choice(rng, seed, marks)
     plan = _draw(rng) if seed else _Plan()
     site = Site("skid")
     posts = _frame(site, style, plan, rng)
     for level in range(len(plan.levels)):
         placed = site.lay(_run(level, plan, style, choice, rng), style)
         _hang(site, placed, style, plan, level, posts)
-    if drawn == "all" and marks:
+    if marks == "all":
         _number(site, style, plan, posts)
     return site.plant("skid", seed, style)
 
 
 def _frame(site: Site, style: ModelingStyle, plan: _Plan, rng: np.random.Generator) -> dict[tuple[int, int], int]:
     """Deck, casters and posts; returns the index of the post at each corner (signs of x and y)."""
-    bed = site.add(deck(plan.length, plan.width, style).placed(at(0, 0, _TOP)))
+    bed = site.add(Deck(length=plan.length, width=plan.width).as_assembly(style).placed(at(0, 0, _TOP)))
     rail = plan.width / 2 - DECK_INSET - CHANNEL_WIDTH / 2
+    upright = Post(height=plan.levels[-1] + 0.10, side=plan.post, capped=False)
     posts = {}
     for sx in (-1, 1):
         for sy in (-1, 1):
             place = at(sx * (plan.length / 2 - 0.20), sy * rail, CASTER_HEIGHT)
-            site.add(caster(style, float(rng.uniform(0, 2 * np.pi))).placed(place), bed + (1 if sy < 0 else 2))
-            upright = post(plan.levels[-1] + 0.10, style, plan.post).placed(
-                at(sx * plan.post_x, sy * plan.post_y, _TOP)
-            )
-            posts[(sx, sy)] = site.add(upright, bed) + 1
+            wheel = Caster(turn=float(rng.uniform(0, 2 * np.pi))).as_assembly(style)
+            site.add(wheel.placed(place), bed + (1 if sy < 0 else 2))
+            foot = at(sx * plan.post_x, sy * plan.post_y, _TOP)
+            posts[(sx, sy)] = site.add(upright.as_assembly(style).placed(foot), bed) + 1
     return posts
 
 
@@ -252,4 +251,4 @@ def _number(site: Site, style: ModelingStyle, plan: _Plan, posts: dict[tuple[int
             text = f"V-{100 * (level + 1) + 10 * (sy > 0) + (sx > 0) + 1}"
             z = _TOP + height - 0.13
             face = looking((sx * (plan.post_x + plan.post / 2), sy * plan.post_y, z), (0.0, sx, 0.0), (sx, 0.0, 0.0))
-            site.add(plate((text,), style, 0.0052, 2).placed(face), index)
+            site.add(NamePlate(text=text, letter=0.0052, rivets=2).as_assembly(style).placed(face), index)

@@ -7,20 +7,18 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from cadgraph.model.scene import Floats
-from cadplants.lines.choice import Choice
+from cadplants.families.preset_devices import Drum, EndSuction, ManwayTank, Opening
+from cadplants.lines.choice import draw_choice
 from cadplants.lines.instrument import tee_at
 from cadplants.lines.route import Route
 from cadplants.lines.run import Inline, Run
 from cadplants.model.contacts import on_ground
 from cadplants.model.plant import Component, Plant
-from cadplants.model.standards import PIPES, TEE_CENTER_TO_END
-from cadplants.parts.brand import Brand, draw_brand, dressed
+from cadplants.model.standards import TEE_CENTER_TO_END
+from cadplants.parts.brand import dressed
 from cadplants.parts.detail import Marks
-from cadplants.parts.drum import drum
-from cadplants.parts.fastener import SUPPORT_REACH
-from cadplants.parts.pump import Pump, pump
-from cadplants.parts.structure import post
-from cadplants.parts.vessel import Nozzle, Tank, tank
+from cadplants.parts.pump import Pump
+from cadplants.parts.vessel import Nozzle, Tank
 from cadplants.presets.gauged_tank import with_level_gauge
 from cadplants.presets.site import Placed, Site, Work
 from cadplants.solids.mesh_ops import box
@@ -98,13 +96,11 @@ def make_station(seed: int = 0, style: ModelingStyle | None = None, marks: Marks
     """
     rng = np.random.default_rng([seed, 12])
     style = dressed(style, rng, seed, _USUAL)
-    make = draw_brand(rng)
-    drawn = marks or ("few", "none", "few", "all")[int(rng.integers(4))]
-    choice = Choice(make if seed else Brand(), drawn if seed or marks else "few")
+    choice = draw_choice(rng, seed, marks)
     work = _Work(Site("station"), style, choice, _draw(rng) if seed else _Plan(), rng)
     feed, first = _feed_tank(work)
     _drain(work, feed, first)
-    pumps = [pump(f"P-{k + 1}", _PUMP_IN, _PUMP_OUT, style) for k in range(2)]
+    pumps = [EndSuction(dn=_PUMP_IN, out=_PUMP_OUT).pump(f"P-{k + 1}", style) for k in range(2)]
     suction = _suction_header(work, feed, first, float(pumps[0].suction[2, 3]))
     receiver, lowest = _receiver(work)
     discharge = _discharge_header(work, receiver, lowest)
@@ -126,7 +122,9 @@ def _feed_tank(work: _Work) -> tuple[Tank, int]:
         Nozzle(_DISCHARGE, "top", (0.0, 0.0)),
         Nozzle(_MANWAY, "side", (-0.42 * np.pi, 0.70), 0.20, manway=True),
     ]
-    vessel = tank("T-1", work.style, work.plan.radius, work.plan.height, _CLEAR, nozzles)
+    openings, plan = tuple(map(Opening.of, nozzles)), work.plan
+    upright = ManwayTank(radius=plan.radius, height=plan.height, clearance=_CLEAR, legs=4, nozzles=openings)
+    vessel = upright.tank("T-1", work.style)
     low = _CLEAR + work.plan.radius / 2 + 0.04
     span = low + 0.28, low + work.plan.height - 0.25
     whole = with_level_gauge(vessel.assembly, "T-1", "L-1", work.plan.radius, 0.06 * np.pi, span, work.style, work.rng)
@@ -143,7 +141,9 @@ def _receiver(work: _Work) -> tuple[Tank, int]:
         Nozzle(_PUMP_OUT, "top", (0.0, 0.25 * work.plan.drum_length)),
         Nozzle(_MANWAY, "left", (0.0, 0.0), 0.20, manway=True),
     ]
-    vessel, _ = drum("T-2", work.style, work.plan.drum_radius, work.plan.drum_length, _CLEAR, nozzles)
+    openings, plan = tuple(map(Opening.of, nozzles)), work.plan
+    lying = Drum(radius=plan.drum_radius, length=plan.drum_length, clearance=_CLEAR, nozzles=openings)
+    vessel = lying.tank("T-2", work.style)
     pose = at(0.0, work.plan.drum + 0.25 * work.plan.drum_length, 0.0)
     first = work.site.add(vessel.assembly.placed(pose))
     return replace(vessel, faces=tuple(pose @ face for face in vessel.faces)), first
@@ -177,7 +177,7 @@ def _suction_header(work: _Work, feed: Tank, first: int, level: float) -> Placed
     )
     placed = work.site.lay(run, work.style, touching)
     for place in (work.plan.pumps[0] - 0.30, (work.plan.pumps[0] + work.plan.pumps[1]) / 2, work.plan.pumps[1] + 0.30):
-        _stand(work, placed, behind + place)
+        work.site.stand(placed, behind + place, work.style)
     return placed
 
 
@@ -208,7 +208,7 @@ def _discharge_header(work: _Work, receiver: Tank, first: int) -> Placed:
     )
     placed = work.site.lay(run, work.style, (), touching)
     for place in (work.plan.pumps[0] - 0.25, (work.plan.pumps[0] + work.plan.pumps[1]) / 2, work.plan.pumps[1] + 0.62):
-        _stand(work, placed, place - start, 0.08)
+        work.site.stand(placed, place - start, work.style, 0.08)
     return placed
 
 
@@ -299,7 +299,7 @@ def _outlet(work: _Work, receiver: Tank, first: int) -> None:
         reason="leaves the drum by gravity",
     )
     placed = work.site.lay(run, work.style, touching)
-    _stand(work, placed, 1.15)
+    work.site.stand(placed, 1.15, work.style)
 
 
 def _fill(work: _Work, feed: Tank, first: int) -> None:
@@ -327,15 +327,6 @@ def _vent(work: _Work, receiver: Tank, first: int) -> None:
     work.site.lay(
         Run("B", _PUMP_OUT, Route(np.array(corners)), ends=("joint", "open"), nodes=("T-2", "")), work.style, touching
     )
-
-
-def _stand(work: _Work, placed: Placed, s: float, side: float = 0.05) -> None:
-    """A post on the slab that holds a run at a chainage."""
-    run = placed.laid.run
-    x, y, z = (float(v) for v in run.route.point(s))
-    height = z - PIPES[run.dn_at(s)].radius - SUPPORT_REACH
-    base = work.site.add(post(height, work.style, side, capped=True).placed(at(x, y, 0.0)))
-    work.site.support(placed, s, base + 2, work.style)
 
 
 def _on_slab(plant: Plant, style: ModelingStyle) -> Plant:

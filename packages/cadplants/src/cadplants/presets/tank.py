@@ -3,24 +3,23 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import partial
 
 import numpy as np
 
 from cadgraph.model.scene import Floats
-from cadplants.lines.choice import Choice
+from cadplants.families.preset_devices import Column, Drum, ManwayTank, NamePlate, Opening, beam_between
+from cadplants.lines.choice import draw_choice
+from cadplants.lines.instrument import tee_at
 from cadplants.lines.route import Route
 from cadplants.lines.run import Inline, Run
-from cadplants.model.plant import Device, Plant
+from cadplants.model.plant import Plant
 from cadplants.model.standards import PIPES, SECTIONS, TEE_CENTER_TO_END
-from cadplants.parts.brand import Brand, draw_brand, dressed
-from cadplants.parts.detail import Marks, plate
-from cadplants.parts.drum import drum
+from cadplants.parts.brand import dressed
+from cadplants.parts.detail import Marks
+from cadplants.parts.drum import drum_reach
 from cadplants.parts.fastener import SUPPORT_REACH
 from cadplants.parts.flange import GASKET, plate_thickness
-from cadplants.parts.piping import tee
-from cadplants.parts.structure import beam, column, post
-from cadplants.parts.vessel import Nozzle, Tank, tank
+from cadplants.parts.vessel import Nozzle, Tank
 from cadplants.presets.site import Placed, Site, Work
 from cadplants.solids.transforms import at
 from cadplants.styles.modeling_style import ModelingStyle
@@ -90,9 +89,7 @@ def make_tank(seed: int = 0, style: ModelingStyle | None = None, marks: Marks | 
     """
     rng = np.random.default_rng([seed, 3])
     style = dressed(style, rng, seed, _USUAL)
-    make = draw_brand(rng)
-    drawn = marks or ("few", "none", "few", "all")[int(rng.integers(4))]
-    choice = Choice(make if seed else Brand(), drawn if seed or marks else "few")
+    choice = draw_choice(rng, seed, marks)
     plan = _draw(rng) if seed else _Plan()
     site = Site("tank")
     vessel, reach = _vessel(style, plan)
@@ -116,8 +113,8 @@ def _name(site: Site, style: ModelingStyle, vessel: Tank, first: int) -> None:
     pose = np.eye(4)
     pose[:3, 0], pose[:3, 1], pose[:3, 2] = np.cross((0.0, 0.0, 1.0), out), (0.0, 0.0, 1.0), out
     pose[:3, 3] = face[:3, 3] + (pad + plate_thickness(_MANWAY)) * out
-    text = plate(("TANK T-1", "PS 6 BAR", "TS 95 C", "V 2400 L"), style, 0.014)
-    site.add(text.placed(pose), first + vessel.flanges[-1] + (2 if style.gaskets else 1))
+    text = NamePlate(text="TANK T-1|PS 6 BAR|TS 95 C|V 2400 L", letter=0.014, rivets=4)
+    site.add(text.as_assembly(style).placed(pose), first + vessel.flanges[-1] + (2 if style.gaskets else 1))
 
 
 def _vessel(style: ModelingStyle, plan: _Plan) -> tuple[Tank, float]:
@@ -132,7 +129,8 @@ def _vessel(style: ModelingStyle, plan: _Plan) -> tuple[Tank, float]:
             *(Nozzle(plan.drain, "right", (-0.13 * plan.height * sign * m, low), 0.16) for sign in (1, -1)),
             Nozzle(_MANWAY, "left", (-0.2 * plan.height * m, 0.0), 0.20, manway=True),
         ]
-        return drum("T-1", style, radius, plan.height, 0.32, nozzles)
+        lying = Drum(radius=radius, length=plan.height, clearance=0.32, nozzles=tuple(map(Opening.of, nozzles)))
+        return lying.tank("T-1", style), drum_reach(radius, plan.height)
     angle = 0.42 * m
     nozzles = [
         Nozzle(plan.main, "top", (0.0, 0.0)),
@@ -141,7 +139,9 @@ def _vessel(style: ModelingStyle, plan: _Plan) -> tuple[Tank, float]:
         Nozzle(plan.drain, "side", (angle, 0.16), 0.16),
         Nozzle(_MANWAY, "side", (-2.0 * m, 0.75), 0.20, manway=True),
     ]
-    return tank("T-1", style, radius, plan.height, 0.35, nozzles, plan.legs), radius
+    openings = tuple(map(Opening.of, nozzles))
+    upright = ManwayTank(radius=radius, height=plan.height, clearance=0.35, legs=plan.legs, nozzles=openings)
+    return upright.tank("T-1", style), radius
 
 
 def _ends(vessel: Tank, first: int, nozzle: int) -> tuple[Floats, list[int]]:
@@ -193,7 +193,7 @@ def _vents(work: _Work, vessel: Tank, first: int, level: float) -> Placed:
     meet = float(s[1] + other[0] - start[0])
     inline = [
         work.choice.valve(0.5 * float(s[1]) - 0.02, "ball", "V-2", dn, np.pi),
-        Inline(meet, partial(_tee, dn=dn), roll=np.pi, welded=True, junction="J-1"),
+        tee_at(meet, "J-1", dn, dn, np.pi),
         Inline(meet + 0.85),
     ]
     taps = [work.choice.gauge(float(s[2]) - 1.1, "G-3", 100, work.needle())]
@@ -224,13 +224,13 @@ def _portal(site: Site, style: ModelingStyle, plan: _Plan, overhead: Placed, ven
     ys = (-0.55, 0.95) if plan.side > 0 else (-0.95, 0.55)
     top = seats[0] + depth / 2
     for y in ys:
-        columns.append(site.add(column(top - depth, style, size).placed(at(x, y, 0))))
-    head = site.add(beam(np.array([x, ys[0] - 0.10, seats[0]]), np.array([x, ys[1] + 0.10, seats[0]]), style, size))
+        columns.append(site.add(Column(height=top - depth, section=size).as_assembly(style).placed(at(x, y, 0))))
+    head = site.add(beam_between((x, ys[0] - 0.10, seats[0]), (x, ys[1] + 0.10, seats[0]), size, style))
     for base in columns:
         site.join(base + 1, head)
     # The lower beam reaches between the flanges of the columns to their webs.
-    near, far = np.array([x, ys[0] + web / 2, seats[1]]), np.array([x, ys[1] - web / 2, seats[1]])
-    shelf = site.add(beam(near, far, style, "IPE 100"))
+    near, far = (x, ys[0] + web / 2, seats[1]), (x, ys[1] - web / 2, seats[1])
+    shelf = site.add(beam_between(near, far, "IPE 100", style))
     for base in columns:
         site.join(base + 1, shelf)
     for placed, carrier in ((overhead, head), (vents, shelf)):
@@ -270,13 +270,5 @@ def _drain(work: _Work, vessel: Tank, first: int, number: int, side: int, reach:
         reason="drains the tank by gravity",
     )
     placed = work.site.lay(run, work.style, touching)
-    height = z - PIPES[dn].radius - SUPPORT_REACH
     for share in (0.30, 0.62, 0.92):
-        at_s = float(s[2] + share * (s[3] - s[2]))
-        x, stand_y, _ = route.point(at_s)
-        base = work.site.add(post(height, work.style, capped=True).placed(at(float(x), float(stand_y), 0)))
-        work.site.support(placed, at_s, base + 2, work.style)
-
-
-def _tee(style: ModelingStyle, dn: int) -> Device:
-    return tee(dn, dn, style)
+        work.site.stand(placed, float(s[2] + share * (s[3] - s[2])), work.style)

@@ -12,13 +12,17 @@ from cadgraph.model.vocabulary import default_vocabulary
 from cadplants.builder.device import Device, families_of
 from cadplants.families import FAMILIES
 from cadplants.families.lookalikes.lookalike import LOOKALIKES
+from cadplants.families.preset_devices import LAID_DEVICES
 from cadplants.families.primitive.primitive import KITS, PRIMITIVES
 from cadplants.model.family import Family
 
-__all__ = ["ALL_FAMILIES", "FEW_KITS", "OF_PRIMITIVES", "Taste", "register"]
+__all__ = ["ALL_FAMILIES", "FEW_KITS", "LAID", "OF_PRIMITIVES", "Taste", "register"]
 
-ALL_FAMILIES: dict[str, Family] = {**FAMILIES, **PRIMITIVES, **LOOKALIKES}
-"""The usual families, those of primitives and those of look-alikes, by name."""
+LAID: dict[str, Family] = {family.name: family for family in LAID_DEVICES}
+"""Families that presets lay and no assortment draws, by name."""
+
+ALL_FAMILIES: dict[str, Family] = {**FAMILIES, **PRIMITIVES, **LOOKALIKES, **LAID}
+"""The usual families, those of primitives, those of look-alikes and those that presets lay, by name."""
 
 _PLACES = ("inline", "tap", "floor", "end", "head", "carrier")
 _POOLS: tuple[dict[str, Family], ...] = (FAMILIES, PRIMITIVES, LOOKALIKES)

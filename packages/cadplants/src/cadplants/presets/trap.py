@@ -10,13 +10,13 @@ from __future__ import annotations
 import numpy as np
 
 from cadgraph.model.scene import Floats
+from cadplants.families.preset_devices import ManwayTank, Opening, Platform
 from cadplants.model.plant import Assembly, Component, Plant, gather
 from cadplants.model.standards import ELBOW_LONG_RADIUS, PIPES
-from cadplants.parts.access import platform
 from cadplants.parts.fastener import clamping
 from cadplants.parts.flange import bolts, flange, flange_length, plate_thickness
 from cadplants.parts.piping import pipe
-from cadplants.parts.vessel import Nozzle, Tank, tank
+from cadplants.parts.vessel import Nozzle, Tank
 from cadplants.solids.mesh_ops import box, tube
 from cadplants.solids.transforms import arc, at, looking, spun
 from cadplants.styles.modeling_style import STYLES, ModelingStyle
@@ -136,7 +136,8 @@ def make_platform_and_tanks(gap: float = 0.016) -> Plant:
             joints += [(flange_of_tank, near), (n_both + flange_of_line, far)]
     placed = [vessel.assembly.placed(pose) for vessel, pose in zip(vessels, poses, strict=True)]
     tanks = gather([*placed, line], joints).marked(cluster="tanks")
-    floor = platform(length, width, height, style).placed(at(_APART / 2, -gap / 2 - width / 2, 0))
+    deck = Platform(length=length, width=width, floor=height, opened=False, opening=0.0).as_assembly(style)
+    floor = deck.placed(at(_APART / 2, -gap / 2 - width / 2, 0))
     whole = gather([tanks, floor.marked(cluster="platform")])
     return Plant(whole.components, whole.contacts, whole.units, name="platform and tanks", styles=(style.name,))
 
@@ -147,7 +148,9 @@ def _vessel(name: str, style: ModelingStyle, radius: float, angle: float) -> Tan
         Nozzle(_MANWAY_DN, "side", (np.pi / 2, 0.55), 0.15, manway=True),
         Nozzle(_LINE_DN, "top", (0.0, 0.0), 0.12),
     )
-    return tank(name, style, radius, _SHELL, _CLEARANCE, nozzles)
+    openings = tuple(map(Opening.of, nozzles))
+    upright = ManwayTank(radius=radius, height=_SHELL, clearance=_CLEARANCE, legs=4, nozzles=openings)
+    return upright.tank(name, style)
 
 
 def _line(start: Floats, end: Floats, style: ModelingStyle) -> Assembly:

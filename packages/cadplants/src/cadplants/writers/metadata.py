@@ -84,7 +84,7 @@ def claim(plant: Plant, inventory: Inventory, metadata: Metadata) -> Claims:
         metadata: how many are.
     """
     rng = np.random.default_rng([plant.seed, 13])
-    right = [_of_item(plant, item) for item in inventory.items]
+    right = [_of_item(item) for item in inventory.items]
     parts = [Claim(c.group, c.name, c.name) for c in plant.components]
     every = sorted({(one.group, one.name) for one in right if one.group})
     items: list[Claim | None] = [_spoilt(one, every, metadata, rng) for one in right]
@@ -95,10 +95,9 @@ def claim(plant: Plant, inventory: Inventory, metadata: Metadata) -> Claims:
     return Claims(tuple(items), tuple(components))
 
 
-def _of_item(plant: Plant, item: Item) -> Claim:
+def _of_item(item: Item) -> Claim:
     if item.unit is None:
-        family = plant.components[item.members[0]].family.partition("/")[0]
-        return Claim(item.group, item.name, family or item.name)
+        return Claim(item.group, item.name, item.name)
     kind = item.unit.kind
     if item.unit.type == "equipment":
         return Claim("Equipment", kind, kind)

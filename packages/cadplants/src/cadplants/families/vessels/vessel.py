@@ -9,7 +9,7 @@ from cadplants.builder.draws import made
 from cadplants.builder.params import Params, among, between, chance, given, nested, several, whole
 from cadplants.builder.table import Table, outline
 from cadplants.families.valves.valve import bolt_circle, disc_flange
-from cadplants.model.family import Model, Part, Port, placed
+from cadplants.model.family import Model, Part, Port
 from cadplants.model.standards import FLANGES, PIPES
 from cadplants.parts.flange import plate_thickness
 from cadplants.solids.mesh_ops import Solid, extrude, merge, moved, revolve, weld
@@ -18,7 +18,7 @@ from cadplants.solids.primitives import BOTH, along, around, ball, box, cylinder
 from cadplants.solids.transforms import at, looking, spun
 from cadplants.styles.modeling_style import ModelingStyle
 
-__all__ = ["VESSELS", "Tank", "apart", "head_profile", "level_gauge", "nozzle"]
+__all__ = ["VESSELS", "LevelGauge", "Tank", "apart", "head_profile", "nozzle"]
 
 _HEADS = ("2:1", "torispherical", "hemispherical")
 
@@ -112,13 +112,6 @@ class LevelGauge(Params):
         t.at(out).add("level gauge", rail, of="electrical", own=True)
         t.at(out).add("gauge face", *flaps, of="handle", own=True, fine=True)
         return t.parts
-
-
-def level_gauge(
-    r: float, low: float, high: float, angle: float, style: ModelingStyle, rng: np.random.Generator
-) -> list[Part]:
-    """A level gauge at random, on an upright shell."""
-    return placed(LevelGauge.draw(rng).parts(r, low, high, style), spun("z", angle))
 
 
 class _Nozzle(Params):
