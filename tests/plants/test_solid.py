@@ -1,6 +1,10 @@
+import pkgutil
+from importlib import import_module
+
 import numpy as np
 import pytest
 
+import cadplants
 from cadplants.solids.mesh_ops import (
     Branch,
     about_x,
@@ -107,3 +111,15 @@ def test_about_x_lays_the_axis_along_x():
 def test_quarter_turns_are_exact():
     assert set(np.unique(spun("z", np.pi / 2))) <= {-1.0, 0.0, 1.0}
     np.testing.assert_array_equal((at(1, 2, 3) @ spun("x", np.pi))[:3, 3], [1.0, 2.0, 3.0])
+
+
+def test_no_function_keeps_the_shapes_of_every_plant_that_is_made():
+    kept = {}
+    for found in pkgutil.walk_packages(cadplants.__path__, "cadplants."):
+        for name, one in vars(import_module(found.name)).items():
+            if hasattr(one, "cache_info") and one.__module__ == found.name:
+                kept[f"{one.__module__}.{name}"] = one.cache_info().maxsize
+    assert len(kept) > 60
+    # By words of the code alone, of which there are so many and no more.
+    endless = {"builder.draws.of_makes", "builder.table.group_of", "families.valves.body.packings"}
+    assert {name for name, most in kept.items() if most is None} == {f"cadplants.{name}" for name in endless}

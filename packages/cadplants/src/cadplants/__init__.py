@@ -1,6 +1,5 @@
 """Generated industrial plants with their ground truth: an open benchmark for whoever reads CAD."""
 
-import warnings
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
@@ -69,14 +68,9 @@ _LATER = {
     "write_plant": "cadplants.writers",
     "write_usd": "cadplants.writers.usd",
 }
-_OLD = {"HANDS": "STYLES", "Hand": "ModelingStyle", "Sins": "Defects", "draw_sins": "draw_defects", "spoil": "degrade"}
 
 
 def __getattr__(name: str) -> Any:
-    # Names of version 0.1.0, kept for one more.
-    if name in _OLD:
-        warnings.warn(f"cadplants.{name} is now cadplants.{_OLD[name]}", DeprecationWarning, stacklevel=2)
-        name = _OLD[name]
     if name in _LATER:
         return getattr(import_module(_LATER[name]), name)
     raise AttributeError(f"module 'cadplants' has no attribute {name!r}")

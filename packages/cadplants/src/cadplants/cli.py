@@ -15,7 +15,7 @@ import typer
 from rich.markup import escape
 from rich.table import Column, Table
 
-from cadgraph.cli.screen import err, out
+from cadgraph.cli.screen import out
 from cadgraph.errors import FormatError
 
 if TYPE_CHECKING:
@@ -102,19 +102,11 @@ def make_plant(
         float | None, typer.Option(min=0, max=1, help="Of RVM and IFC, share of elements without class and name.")
     ] = None,
     own: _With = None,
-    hand: Annotated[str | None, typer.Option(hidden=True)] = None,
-    spoilt: Annotated[float, typer.Option(min=0, max=1, hidden=True)] = 0.0,
-    sins: Annotated[bool, typer.Option("--sins", hidden=True)] = False,
 ) -> None:
     """Generate a plant as an authoring system would write it, and its ground truth beside it."""
     from cadplants import draw_defects, make
     from cadplants.writers import format_of, write_plant
 
-    renamed = {"--hand": ("--style", hand), "--spoilt": ("--defective", spoilt), "--sins": ("--defects", sins)}
-    for old, (new, given_so) in renamed.items():
-        if given_so:
-            err.print(f"[dim]{old} is deprecated; use {new}[/]")
-    style, defective, defects = style or hand, defective or spoilt, defects or sins
     given = {"meters_per_unit": _metres_in(unit), "up_axis": up, "instances": instances, "polygons": polygons}
     told = {"layout": layout, "wrong_classes": wrong_classes, "missing_names": missing_names}
     authoring = _authoring(format_of(output, form).name, given, told, seed if defects else None)

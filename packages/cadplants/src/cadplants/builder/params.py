@@ -460,25 +460,7 @@ class Params:
         before = SimpleNamespace()
         values = vars(before)
         for name, spec in specs.items():
-            inner = _below(name, given), _below(name, fixed)
-            if name in fixed:
-                _refuse_others(name, given, fixed[name], "as the style or the rest of the device has it")
-                values[name] = fixed[name]
-            elif spec.when is not None and not spec.when(before):
-                _refuse_others(name, given, spec.otherwise, "as other parameters rule it out")
-                values[name] = spec.otherwise
-            elif name in given:
-                values[name] = _accepted(name, spec, given[name], before)
-            elif any(inner) and spec.piece is not None:
-                values[name] = _drawn(name, spec.piece, source.of(name), before, *inner)
-                continue
-            else:
-                values[name] = spec.sample(source.of(name), before)
-            if inner[0] and not inner[1] and _pieces_in(values[name]):
-                values[name] = _drawn(name, _with, values[name], inner[0])
-            elif any(inner):
-                first = next(iter({**inner[0], **inner[1]}))
-                raise ValueError(f"{name}.{first}: the device has no {name} with parameters of its own")
+            values[name] = _value(name, spec, source, before, given, fixed)
         return cls(**values)
 
     def rows(self, within: str = "", here: bool = False) -> list[tuple[str, str, str, str]]:
@@ -531,6 +513,34 @@ class Params:
         """All parameters as plain JSON values, pieces as objects of their own."""
         said = {"kind": self.kind} if self.kind else {}
         return said | {name: _plain(getattr(self, name)) for name in self.fields()}
+
+
+def _value(
+    name: str, spec: Field, source: Source, before: Any, given: Mapping[str, Any], fixed: Mapping[str, Any]
+) -> Any:
+    """A field's value: as it is set, as a user gives it, or as it is drawn; of a piece maybe a part of that."""
+    told, placed = _below(name, given), _below(name, fixed)
+    if name in fixed:
+        _refuse_others(name, given, fixed[name], "as the style or the rest of the device has it")
+        value = fixed[name]
+    elif spec.when is not None and not spec.when(before):
+        _refuse_others(name, given, spec.otherwise, "as other parameters rule it out")
+        value = spec.otherwise
+    elif name in given:
+        value = _accepted(name, spec, given[name], before)
+    elif spec.piece is not None and (told or placed):
+        return _drawn(name, spec.piece, source.of(name), before, told, placed)
+    else:
+        value = spec.sample(source.of(name), before)
+    return _altered(name, value, told, placed) if told or placed else value
+
+
+def _altered(name: str, value: Any, told: Mapping[str, Any], placed: Mapping[str, Any]) -> Any:
+    """A value in which parameters of pieces are as a user gives them, where it has any."""
+    if placed or not _pieces_in(value):
+        first = next(iter({**told, **placed}))
+        raise ValueError(f"{name}.{first}: the device has no {name} with parameters of its own")
+    return _drawn(name, _with, value, told)
 
 
 def _restored(name: str, spec: Field, told: Any, before: Any) -> Any:

@@ -69,17 +69,23 @@ def omitted(plant: Plant, classes: Collection[str]) -> Plant:
     return replace(without.without(left), looseness=without.looseness + GASKET) if left else without
 
 
-def _needed(plant: Plant, chosen: set[int]) -> set[int]:
-    """Which chosen pieces of units have to stay: without them the rest would fall apart, or nothing would be left."""
+def _pieces_of_units(plant: Plant) -> tuple[dict[str, list[int]], dict[str, list[tuple[int, int]]]]:
+    """The components of each unit, and which of them touch."""
     own: dict[str, list[int]] = defaultdict(list)
+    within: dict[str, list[tuple[int, int]]] = defaultdict(list)
     for i, component in enumerate(plant.components):
         if component.unit:
             own[component.unit].append(i)
-    unit_of = [component.unit for component in plant.components]
-    within: dict[str, list[tuple[int, int]]] = defaultdict(list)
     for a, b in plant.contacts:
-        if unit_of[a] and unit_of[a] == unit_of[b]:
-            within[unit_of[a]].append((a, b))
+        unit = plant.components[a].unit
+        if unit and unit == plant.components[b].unit:
+            within[unit].append((a, b))
+    return own, within
+
+
+def _needed(plant: Plant, chosen: set[int]) -> set[int]:
+    """Which chosen pieces of units have to stay: without them the rest would fall apart, or nothing would be left."""
+    own, within = _pieces_of_units(plant)
     needed: set[int] = set()
     for unit, pieces in own.items():
         rest = list(pieces)

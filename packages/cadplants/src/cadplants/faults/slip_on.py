@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from functools import cache
-
 import numpy as np
 
 from cadgraph.model.scene import Floats
 from cadplants.model.standards import FLANGES, PIPES
 from cadplants.parts.flange import face_shell, plate_thickness
-from cadplants.solids.mesh_ops import Solid, about_x, revolve, weld
+from cadplants.solids.mesh_ops import Solid, about_x, revolve, shared, weld
 
 __all__ = ["CLEARANCE", "slipped_on"]
 
@@ -45,7 +43,7 @@ def slipped_on(flange: Solid) -> Solid | None:
     return _slip_on(dn, sides, drilled, round(length, 9) if flat else 0.0)
 
 
-@cache
+@shared
 def _slip_on(dn: int, sides: int, drilled: bool, thickness: float) -> Solid:
     """The flange; a plain disc of this thickness [m], or one with a hub where that is 0."""
     size = FLANGES[dn]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from typing import Literal
 
 import numpy as np
@@ -29,8 +29,7 @@ def course(run: Run, one_way: Mapping[str, bool]) -> Assembly:
         run: as it was laid.
         one_way: ids of the devices that let flow pass one way only: whether that is along the run.
     """
-    nodes = [(item.s, item.unit or item.junction) for item in run.inline if item.unit or item.junction]
-    nodes += [(tap.s, tap.unit) for tap in run.taps if tap.unit]
+    nodes = _nodes(run)
     points = [_point(item.junction, "junction", run.route.point(item.s)) for item in run.inline if item.junction]
     for s, node, end, name in ((0.0, run.nodes[0], 0, "start"), (run.route.length, run.nodes[1], 1, "end")):
         if not node:
@@ -52,6 +51,12 @@ def course(run: Run, one_way: Mapping[str, bool]) -> Assembly:
     return Assembly(points=tuple(points), connections=connections, lines=(line,))
 
 
+def _nodes(run: Run) -> list[tuple[float, str]]:
+    """Chainage and id of the units and junctions of a run."""
+    nodes = [(item.s, item.unit or item.junction) for item in run.inline if item.unit or item.junction]
+    return nodes + [(tap.s, tap.unit) for tap in run.taps if tap.unit]
+
+
 def _flows(run: Run, names: list[str], one_way: Mapping[str, bool]) -> list[_Flow]:
     """The flow of each connection; it is one from branch to branch, and none where a blind end closes the way."""
     junctions = {item.junction for item in run.inline if item.junction}
@@ -59,17 +64,23 @@ def _flows(run: Run, names: list[str], one_way: Mapping[str, bool]) -> list[_Flo
     flows: list[_Flow] = []
     for low, high in zip(borders[:-1], borders[1:], strict=True):
         ways = {one_way[name] for name in names[low : high + 1] if name in one_way}
-        dead = any(
-            border == at_end and not run.nodes[end] and run.ends[end] in ("blind", "plate")
-            for end, border, at_end in ((0, low, 0), (1, high, len(names) - 1))
-        )
-        flow: _Flow = ("unknown", "")
-        if run.flow != "unknown" and not dead:
-            flow = ("forward" if run.flow == "forward" else "backward", run.reason)
-        elif len(ways) == 1 and not dead:
-            flow = ("forward" if ways.pop() else "backward", "a valve in it lets flow pass one way only")
-        flows += [flow] * (high - low)
+        dead = (low == 0 and _is_dead(run, 0)) or (high == len(names) - 1 and _is_dead(run, 1))
+        flows += [("unknown", "") if dead else _flow(run, ways)] * (high - low)
     return flows
+
+
+def _flow(run: Run, ways: Collection[bool]) -> _Flow:
+    """The flow of a way through which something can pass; ``ways`` of its devices that let flow pass one way only."""
+    if run.flow != "unknown":
+        return "forward" if run.flow == "forward" else "backward", run.reason
+    if len(ways) != 1:
+        return "unknown", ""
+    return "forward" if True in ways else "backward", "a valve in it lets flow pass one way only"
+
+
+def _is_dead(run: Run, end: int) -> bool:
+    """Whether nothing can leave at an end (0 or 1)."""
+    return not run.nodes[end] and run.ends[end] in ("blind", "plate")
 
 
 def centreline(run: Run) -> Floats:

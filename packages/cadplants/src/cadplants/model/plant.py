@@ -309,6 +309,11 @@ def gather(assemblies: Iterable[Assembly], joints: Sequence[tuple[int, int]] = (
     return Assembly(tuple(components), tuple(contacts), tuple(units), tuple(points), tuple(connections), tuple(lines))
 
 
+def _renumbered(pairs: Iterable[tuple[int, int]], place: Mapping[int, int]) -> tuple[tuple[int, int], ...]:
+    """Pairs of indices by where they are now, but for those that are gone."""
+    return tuple((place[a], place[b]) for a, b in pairs if a in place and b in place)
+
+
 @dataclass(frozen=True)
 class Plant(Assembly):
     """A finished plant.
@@ -387,7 +392,7 @@ class Plant(Assembly):
         return replace(
             self,
             components=tuple(self.components[i] for i in kept),
-            contacts=tuple((place[a], place[b]) for a, b in dict.fromkeys(pairs) if a in place and b in place),
-            duplicates=tuple((place[a], place[b]) for a, b in self.duplicates if a in place and b in place),
+            contacts=_renumbered(dict.fromkeys(pairs), place),
+            duplicates=_renumbered(self.duplicates, place),
             hidden=tuple(place[i] for i in self.hidden if i in place),
         )

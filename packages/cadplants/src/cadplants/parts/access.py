@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from functools import cache
-
 import numpy as np
 
 from cadgraph.model.scene import Floats
 from cadplants.model.plant import Assembly, Component, gather
 from cadplants.parts.structure import column
-from cadplants.solids.mesh_ops import Solid, box, extrude, lattice, tube
+from cadplants.solids.mesh_ops import Solid, box, extrude, lattice, shared, tube
 from cadplants.solids.polygon import section_channel
 from cadplants.solids.transforms import at, looking, spun
 from cadplants.styles.modeling_style import ModelingStyle
@@ -24,7 +22,7 @@ _CHANNEL = 0.06  # m, flange width of the floor's channels (UPE 140)
 _GROUP = "Structural element"
 
 
-@cache
+@shared
 def _grating_solid(length: float, width: float, thick: float) -> Solid:
     """Bearing bars along x every 33.3 mm, cross bars every 100 mm, in a frame of flat bars."""
 
@@ -49,7 +47,7 @@ def grating(length: float, width: float, style: ModelingStyle, thick: float = 0.
     return Assembly((Component(solid, _GROUP, name, style.color("clamp")),))
 
 
-@cache
+@shared
 def _bar_solid(length: float, radius: float, sides: int) -> Solid:
     return tube(np.array([[0.0, 0.0, 0.0], [length, 0.0, 0.0]]), radius, 0.0, sides)
 
@@ -98,7 +96,7 @@ def railing(start: Floats, end: Floats, style: ModelingStyle) -> Assembly:
     return Assembly(tuple(parts), tuple(contacts))
 
 
-@cache
+@shared
 def _channel_solid(length: float) -> Solid:
     return extrude(section_channel(0.14, _CHANNEL, 0.007, 0.010), 0.0, length)
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from functools import cache
-
 import numpy as np
 
 from cadgraph.model.scene import Floats
@@ -11,7 +9,7 @@ from cadplants.model.plant import Device
 from cadplants.model.standards import FACE_TO_FACE, FLANGES, PIPES
 from cadplants.parts.operator import handwheel, lever_solid
 from cadplants.parts.valve_body import Piece, assemble
-from cadplants.solids.mesh_ops import Branch, Solid, about_x, branched, extrude, moved, revolve, stack, weld
+from cadplants.solids.mesh_ops import Branch, Solid, about_x, branched, extrude, moved, revolve, shared, stack, weld
 from cadplants.solids.polygon import circle, rounded_rectangle
 from cadplants.solids.transforms import IDENTITY, at, spun
 from cadplants.styles.modeling_style import ModelingStyle
@@ -19,7 +17,7 @@ from cadplants.styles.modeling_style import ModelingStyle
 __all__ = ["butterfly_valve"]
 
 
-@cache
+@shared
 def _solids(dn: int, style: ModelingStyle) -> tuple[Solid, Solid, Solid, float]:
     """Body, disc, stem; and the height of the stem's top."""
     size, pipe, length = FLANGES[dn], PIPES[dn], FACE_TO_FACE["butterfly"][dn]
@@ -69,7 +67,7 @@ def butterfly_valve(unit: str, dn: int, style: ModelingStyle, gearbox: bool | No
     return Device(device.assembly, length, 0, 0, wafer=True)
 
 
-@cache
+@shared
 def _gear_solids(dn: int, spokes: int) -> tuple[Solid, Solid, Solid, Floats, float]:
     """Gearbox on z = 0, input shaft and wheel about z of a frame that looks to +y; that frame and the wheel's place."""
     half = 0.045 + 0.15 * PIPES[dn].radius

@@ -6,7 +6,6 @@ Each is a mesh of its own and, but for the larger plates, below the 1 cm3 of the
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import cache
 from typing import Literal
 
 import numpy as np
@@ -15,7 +14,7 @@ from cadgraph.model.scene import Floats
 from cadplants.model.plant import Assembly, Component, gather
 from cadplants.model.standards import GAUGES
 from cadplants.solids.lettering import letters
-from cadplants.solids.mesh_ops import Solid, box, extrude, stack
+from cadplants.solids.mesh_ops import Solid, box, extrude, shared, stack
 from cadplants.solids.polygon import circle, rounded_rectangle
 from cadplants.solids.transforms import at, spun
 from cadplants.styles.modeling_style import ModelingStyle
@@ -39,14 +38,13 @@ def marked_gauge(gauge: Assembly, size: int, marks: Marks, style: ModelingStyle)
         marks: how many.
         style: that models it.
     """
-    cases = [i for i, c in enumerate(gauge.components) if c.name == "gauge case"]
-    if marks == "none" or not cases:
+    names = [c.name for c in gauge.components]
+    if marks == "none" or "gauge case" not in names:
         return gauge
-    case = gauge.components[cases[0]]
-    dials = [i for i, c in enumerate(gauge.components) if c.name == "gauge face"]
-    ground = dials[0] if dials else cases[0]
-    needles = [c for c in gauge.components if c.name == "gauge needle"]
-    turn = _turn(needles[0].solid) if needles else None
+    around = names.index("gauge case")
+    case = gauge.components[around]
+    ground = names.index("gauge face") if "gauge face" in names else around
+    turn = _turn(gauge.components[names.index("gauge needle")].solid) if "gauge needle" in names else None
     pieces = [(solid, pose, "gauge face", "needle") for solid, pose in _scale(size, marks, turn)]
     n_marks = len(pieces)
     rim = GAUGES[size].bezel / 2
@@ -64,7 +62,7 @@ def marked_gauge(gauge: Assembly, size: int, marks: Marks, style: ModelingStyle)
     )
     first = len(gauge.components)
     contacts = [(ground, first + k) for k in range(n_marks)]
-    contacts += [(cases[0], first + k) for k in range(n_marks, len(pieces))]
+    contacts += [(around, first + k) for k in range(n_marks, len(pieces))]
     return replace(gauge, components=(*gauge.components, *extra), contacts=(*gauge.contacts, *contacts))
 
 
@@ -105,12 +103,12 @@ def _scale(size: int, marks: Marks, turn: float | None) -> list[tuple[Solid, Flo
     return pieces
 
 
-@cache
+@shared
 def _mark_solid(length: float, width: float) -> Solid:
     return box((length, width, _PAINT), (0, 0, _PAINT / 2))
 
 
-@cache
+@shared
 def _head(radius: float, height: float) -> Solid:
     """The round head of a screw or rivet on z = 0."""
     return stack([(0.0, 0.6 * height, circle(radius, 10)), (0.6 * height, height, circle(0.75 * radius, 10))])
@@ -122,7 +120,7 @@ def screw(style: ModelingStyle, radius: float = 0.004, height: float = 0.0025) -
     return Assembly((Component(solid, "Connection assembly", "screw", style.color("fastener"), family="screw"),))
 
 
-@cache
+@shared
 def _plate_solid(width: float, height: float, thick: float) -> Solid:
     return extrude(rounded_rectangle(width, height, 0.12 * height, 3), 0.0, thick)
 

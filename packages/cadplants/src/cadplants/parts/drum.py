@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from functools import cache
 
 import numpy as np
 
@@ -15,7 +14,7 @@ from cadplants.parts.fastener import clamping
 from cadplants.parts.flange import GASKET, bolts, flange, flange_length, gasket, plate_thickness
 from cadplants.parts.piping import stub
 from cadplants.parts.vessel import Nozzle, Tank
-from cadplants.solids.mesh_ops import Solid, box, extrude, revolve, weld
+from cadplants.solids.mesh_ops import Solid, box, extrude, revolve, shared, weld
 from cadplants.solids.transforms import at, looking, spun
 from cadplants.styles.modeling_style import ModelingStyle
 
@@ -30,7 +29,7 @@ _DEEP = 0.003  # m; a stub reaches this far below the shell where that is lowest
 _OUT = {"top": (0.0, 0.0, 1.0), "right": (1.0, 0.0, 0.0), "left": (-1.0, 0.0, 0.0)}
 
 
-@cache
+@shared
 def _shell_solids(radius: float, length: float, sides: int) -> tuple[Solid, Solid]:
     """Shell along z about its middle, and a head whose open end is at z = 0."""
     inner, half = radius - _WALL, length / 2
@@ -43,7 +42,7 @@ def _shell_solids(radius: float, length: float, sides: int) -> tuple[Solid, Soli
     return shell, weld([revolve([*outside, (0.0, _STRAIGHT + radius / 2), *inside], sides)])
 
 
-@cache
+@shared
 def _saddle_solid(radius: float, axis: float, sides: int) -> Solid:
     """A saddle about y, its foot on z = 0, the tank's axis at this height."""
     hold = radius * np.cos(np.pi / sides) - _BITE

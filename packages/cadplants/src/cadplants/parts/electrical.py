@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from functools import cache
-
 import numpy as np
 
 from cadplants.model.plant import Assembly, Component, gather
 from cadplants.parts.detail import plate
 from cadplants.solids.lettering import letters
-from cadplants.solids.mesh_ops import Solid, box, extrude, moved, revolve, tube, weld
+from cadplants.solids.mesh_ops import Solid, box, extrude, moved, revolve, shared, tube, weld
 from cadplants.solids.polygon import circle, rounded_rectangle
 from cadplants.solids.transforms import at, spun
 from cadplants.styles.modeling_style import ModelingStyle
@@ -19,7 +17,7 @@ __all__ = ["cabinet", "cable_tray", "lamp", "sign"]
 _GROUP = "Electrical and safety"
 
 
-@cache
+@shared
 def _cabinet_solids(width: float, depth: float, height: float) -> tuple[Solid, Solid, Solid, Solid]:
     """Plinth, body, door and lock; the door looks to -y."""
     plinth = box((width - 0.02, depth - 0.04, 0.1), (0, 0.01, 0.05))
@@ -52,7 +50,7 @@ def cabinet(
     return gather(parts, joints)
 
 
-@cache
+@shared
 def _tray_solid(length: float, width: float) -> Solid:
     half, side, thin = width / 2, 0.06, 0.002
     outline = np.array(
@@ -66,7 +64,7 @@ def _tray_solid(length: float, width: float) -> Solid:
     return Solid(solid.vertices[:, [2, 0, 1]], solid.faces)
 
 
-@cache
+@shared
 def _cable_solid(length: float, radius: float) -> Solid:
     return tube(np.array([[0.0, 0.0, 0.0], [length, 0.0, 0.0]]), radius, 0.0, 12)
 
@@ -86,7 +84,7 @@ def cable_tray(length: float, style: ModelingStyle, width: float = 0.3, n_cables
     return Assembly(tuple(parts), tuple(contacts))
 
 
-@cache
+@shared
 def _lamp_solids(height: float) -> tuple[Solid, Solid]:
     shape = [(0, 0), (0.12, 0), (0.12, 0.012), (0.055, 0.012), (0.030, height), (0, height)]
     pole = weld([revolve(shape, 20)])
@@ -104,7 +102,7 @@ def lamp(style: ModelingStyle, height: float = 4.0) -> Assembly:
     return Assembly(components, ((0, 1),))
 
 
-@cache
+@shared
 def _sign_solids() -> tuple[Solid, Solid]:
     pole = extrude(circle(0.02, 12), 0.0, 1.5)
     plate = extrude(rounded_rectangle(0.4, 0.3, 0.02, 3), 0.0, 0.003)

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import cache
 
 import numpy as np
 
 from cadplants.model.plant import Assembly, Component, gather
 from cadplants.parts.detail import screw
-from cadplants.solids.mesh_ops import Solid, box, extrude
+from cadplants.solids.mesh_ops import Solid, box, extrude, shared
 from cadplants.solids.polygon import circle, rounded_rectangle
 from cadplants.solids.transforms import IDENTITY, at, spun
 from cadplants.styles.modeling_style import ModelingStyle
@@ -21,13 +20,13 @@ _POST = 0.06  # m
 _RAIL = (0.03, 0.04)  # m, width and height of a rail
 
 
-@cache
+@shared
 def _bar_solid(height: float, round_bar: bool, sides: int) -> Solid:
     outline = circle(0.010, sides) if round_bar else rounded_rectangle(0.018, 0.018, 0.0)
     return extrude(outline, 0.0, height)
 
 
-@cache
+@shared
 def _post_solid(height: float) -> Solid:
     return extrude(rounded_rectangle(_POST, _POST, 0.006, 2), 0.0, height)
 
@@ -75,7 +74,7 @@ def fence(
     return Assembly(tuple(parts), tuple(contacts))
 
 
-@cache
+@shared
 def _rail_solid(length: float, width: float, deep: float) -> Solid:
     return box((length, width, deep))
 
@@ -91,7 +90,7 @@ def pillar(style: ModelingStyle, side: float = 0.45, height: float = 1.7) -> Ass
     return gather([Assembly(components, ((0, 1),))])
 
 
-@cache
+@shared
 def _pillar_solids(side: float, height: float) -> tuple[Solid, Solid]:
     chamfer = 0.02
     outline = rounded_rectangle(side, side, chamfer, 1)

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from functools import cache
-
 import numpy as np
 
 from cadplants.model.plant import Assembly, Component
 from cadplants.model.standards import HEX_NUTS, PIPES, WASHERS
-from cadplants.solids.mesh_ops import Solid, about_x, box, extrude, merge, moved, stack, sweep
+from cadplants.solids.mesh_ops import Solid, about_x, box, extrude, merge, moved, shared, stack, sweep
 from cadplants.solids.polygon import circle
 from cadplants.solids.transforms import at
 from cadplants.styles.modeling_style import ModelingStyle
@@ -18,7 +16,7 @@ __all__ = ["PROUD", "SUPPORT_REACH", "bolt", "clamping", "pipe_support"]
 PROUD = 0.003  # m; a stud stands this far out of its nut: about two threads
 
 
-@cache
+@shared
 def _bolt_solids(diameter: float, grip: float, sides: int, whole: bool) -> tuple[Solid, ...]:
     """Along x, clamping what lies between 0 and ``grip``; one solid, or stud, nut, washer."""
     across, thick = HEX_NUTS[diameter]
@@ -81,7 +79,7 @@ _PLATE = 0.006
 _GRIP = 0.0002  # m; a tight U-bolt bites this deep
 
 
-@cache
+@shared
 def _support_solids(dn: int, sides: int) -> tuple[Solid, Solid]:
     """Bracket and U-bolt; the pipe runs along x through the origin, the carrier lies towards +y."""
     radius = PIPES[dn].radius

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import cache
 
 import numpy as np
 
@@ -11,7 +10,7 @@ from cadgraph.model.scene import Floats
 from cadplants.model.plant import Assembly, Component, gather
 from cadplants.model.standards import FLANGES, HEX_NUTS, PIPES, RAISED_FACE, WASHERS
 from cadplants.parts.fastener import PROUD, bolt
-from cadplants.solids.mesh_ops import Shell, Solid, about_x, loft, merge, moved, planar, reverse, revolve, weld
+from cadplants.solids.mesh_ops import Shell, Solid, about_x, loft, merge, moved, planar, reverse, revolve, shared, weld
 from cadplants.solids.polygon import circle
 from cadplants.solids.transforms import at, spun
 from cadplants.styles.modeling_style import ModelingStyle
@@ -55,7 +54,7 @@ def flange_length(dn: int, style: ModelingStyle) -> float:
     return RAISED_FACE + (size.neck if style.flange == "neck" else size.slip)
 
 
-@cache
+@shared
 def face_shell(dn: int, sides: int, back: float, bore: float, drilled: bool = True) -> Shell:
     """The surface of a flange about z from its bore to its back: face at 0, body towards +z.
 
@@ -88,7 +87,7 @@ def face_shell(dn: int, sides: int, back: float, bore: float, drilled: bool = Tr
     return weld(shells)
 
 
-@cache
+@shared
 def _flange_solid(dn: int, style: ModelingStyle) -> Solid:
     size, pipe = FLANGES[dn], PIPES[dn]
     sides = style.round(size.outer / 2)
@@ -138,14 +137,14 @@ def flange(dn: int, style: ModelingStyle, blind: bool = False, grip: float = 0.0
     return Assembly((Component(solid, "Pipe assembly", "flange", color, family=f"flange/{style.flange}"),))
 
 
-@cache
+@shared
 def _bolted_solid(dn: int, grip: float, style: ModelingStyle) -> Solid:
     """A flange and all bolts of its joint, their far nuts beyond the other flange."""
     pose = at(plate_thickness(dn)) @ spun("z", np.pi)
     return merge([_flange_solid(dn, style), moved(_bolt_set(dn, grip, style), pose)])
 
 
-@cache
+@shared
 def _blind_solid(dn: int, style: ModelingStyle) -> Solid:
     size = FLANGES[dn]
     sides = style.round(size.outer / 2)
@@ -157,7 +156,7 @@ def _blind_solid(dn: int, style: ModelingStyle) -> Solid:
     return about_x(weld([head, revolve([(back, plate_thickness(dn)), (0.0, plate_thickness(dn))], sides)]))
 
 
-@cache
+@shared
 def _gasket_solid(dn: int, style: ModelingStyle) -> Solid:
     size, pipe = FLANGES[dn], PIPES[dn]
     # A hair inside the inner bolt circle of B16.21, so that it does not half touch the facets of the bolts.
@@ -189,7 +188,7 @@ def bolts(dn: int, grip: float, style: ModelingStyle) -> Assembly:
     return gather(one.placed(pose) for pose in poses)
 
 
-@cache
+@shared
 def _bolt_set(dn: int, grip: float, style: ModelingStyle) -> Solid:
     """All bolts of a joint as one mesh."""
     size = FLANGES[dn]

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from functools import cache
-
 import numpy as np
 
 from cadplants.model.plant import Device
@@ -11,7 +9,7 @@ from cadplants.model.standards import FACE_TO_FACE, FLANGES, PIPES
 from cadplants.parts.flange import face_shell, nut_room, plate_thickness
 from cadplants.parts.operator import Topworks, topworks
 from cadplants.parts.valve_body import Piece, assemble, bore_of, flipped
-from cadplants.solids.mesh_ops import Branch, Solid, about_x, branched, revolve, weld
+from cadplants.solids.mesh_ops import Branch, Solid, about_x, branched, revolve, shared, weld
 from cadplants.solids.transforms import IDENTITY, at
 from cadplants.styles.modeling_style import ModelingStyle
 
@@ -51,7 +49,7 @@ def _neck_room(dn: int, length: float) -> float:
     return length / 2 - plate_thickness(dn) - nut_room(dn) + 0.004
 
 
-@cache
+@shared
 def _gate_solids(dn: int, style: ModelingStyle, spokes: int, design: str) -> tuple[Solid, Topworks]:
     radius, length = PIPES[dn].radius, FACE_TO_FACE["gate"][dn]
     bulge = 1.32 * radius + 0.007
@@ -75,7 +73,7 @@ def gate_valve(
     return assemble(pieces, "gate valve", unit, style, Topworks.contacts, 0, length)
 
 
-@cache
+@shared
 def _cover_solids(dn: int, length: float, style: ModelingStyle) -> tuple[Solid, Solid]:
     """A flanged body along x with a bolted cover, and the cover about its own axis."""
     radius = PIPES[dn].radius

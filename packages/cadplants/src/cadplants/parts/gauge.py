@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from functools import cache
-
 import numpy as np
 
 from cadplants.model.plant import Assembly, Component, Turning, Unit, gather, turned_front
 from cadplants.model.standards import GAUGES
 from cadplants.parts.primitive_devices import gauge_of_primitives
-from cadplants.solids.mesh_ops import Solid, extrude, merge, moved, revolve, stack, tube, weld
+from cadplants.solids.mesh_ops import Solid, extrude, merge, moved, revolve, shared, stack, tube, weld
 from cadplants.solids.polygon import circle
 from cadplants.solids.transforms import IDENTITY, arc, at, spun
 from cadplants.styles.modeling_style import ModelingStyle
@@ -27,7 +25,7 @@ _FRONTS = {
 _BITE = 0.0003  # m; the square of the stem runs this deep into the round case
 
 
-@cache
+@shared
 def _case_solids(size: int, needle_angle: float, style: ModelingStyle) -> tuple[Solid, Solid, Solid]:
     """Case, dial and needle about z, front towards +z."""
     gauge = GAUGES[size]
@@ -63,7 +61,7 @@ def _case_solids(size: int, needle_angle: float, style: ModelingStyle) -> tuple[
     return case, dial, moved(needle, spun("z", needle_angle))
 
 
-@cache
+@shared
 def _stem_solid(size: int, length: float, style: ModelingStyle) -> Solid:
     """The nipple from 0 up and the square of the gauge's connection."""
     gauge = GAUGES[size]
@@ -82,7 +80,7 @@ def _stem_solid(size: int, length: float, style: ModelingStyle) -> Solid:
     )
 
 
-@cache
+@shared
 def _whole_solid(size: int, height: float, style: ModelingStyle) -> Solid:
     gauge = GAUGES[size]
     stand = at(0, gauge.depth / 2, height + gauge.case / 2) @ spun("x", np.pi / 2)
@@ -142,7 +140,7 @@ def pressure_gauge(
     return Assembly(components, contacts, (Unit(unit, "gauge", "pressure gauge"),)).placed(spun("z", turn))
 
 
-@cache
+@shared
 def _siphon_solid(out: float, rise: float, style: ModelingStyle) -> Solid:
     bend = 0.024
     corner = np.array([0.0, 0.0, out])

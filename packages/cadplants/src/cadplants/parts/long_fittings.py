@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from functools import cache
-
 import numpy as np
 import numpy.typing as npt
 
 from cadgraph.model.scene import Floats
 from cadplants.model.standards import PIPES, REDUCER_LENGTH
-from cadplants.solids.mesh_ops import Shell, Solid, weld
+from cadplants.solids.mesh_ops import Shell, Solid, shared, weld
 from cadplants.styles.modeling_style import ModelingStyle
 
 __all__ = ["long_reducer", "ring", "strip"]
@@ -50,7 +48,7 @@ def _disc(loop: Floats, out: bool) -> Shell:
     return Solid(loop, faces if out else faces[:, ::-1])
 
 
-@cache
+@shared
 def long_reducer(dn: int, other: int, style: ModelingStyle, eccentric: bool = False) -> Solid:
     """A reducer along x: a short spigot, a cone of a few triangles from end to end, a second spigot.
 

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from functools import cache
-
 import numpy as np
 
 from cadplants.model.plant import Assembly, Component, Device, Unit
 from cadplants.model.standards import FLANGES, PIPES
 from cadplants.parts.flange import face_shell, nut_room, plate_thickness
 from cadplants.parts.valve_body import bore_of, flipped
-from cadplants.solids.mesh_ops import Branch, Solid, about_x, branched, merge, moved, revolve, stack, weld
+from cadplants.solids.mesh_ops import Branch, Solid, about_x, branched, merge, moved, revolve, shared, stack, weld
 from cadplants.solids.polygon import circle
 from cadplants.solids.transforms import at
 from cadplants.styles.modeling_style import ModelingStyle
@@ -25,7 +23,7 @@ def _meter_length(dn: int) -> float:
     return round(max(0.250, 2.0 * PIPES[dn].outer), 3)
 
 
-@cache
+@shared
 def _meter_solids(dn: int, style: ModelingStyle) -> tuple[Solid, Solid]:
     size, radius, length = FLANGES[dn], PIPES[dn].radius, _meter_length(dn)
     thick, bore, sides = plate_thickness(dn), bore_of(dn, style), style.round(FLANGES[dn].outer / 2)

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cache
 
 import numpy as np
 
 from cadgraph.model.scene import Floats
 from cadplants.parts.valve_body import Piece
-from cadplants.solids.mesh_ops import Solid, about_x, extrude, loft, merge, moved, revolve, stack, sweep, weld
+from cadplants.solids.mesh_ops import Solid, about_x, extrude, loft, merge, moved, revolve, shared, stack, sweep, weld
 from cadplants.solids.polygon import circle, rounded_rectangle
 from cadplants.solids.transforms import at, spun
 from cadplants.styles.modeling_style import ModelingStyle
@@ -26,7 +25,7 @@ __all__ = [
 ]
 
 
-@cache
+@shared
 def handwheel(radius: float, rim: float, spokes: int, hub: float, thick: float, bore: float, sides: int) -> Solid:
     """A handwheel about z with a round rim and straight spokes, its hub from 0 to ``thick`` [m]."""
     angles = np.arange(12) * 2 * np.pi / 12
@@ -43,7 +42,7 @@ def handwheel(radius: float, rim: float, spokes: int, hub: float, thick: float, 
     return merge(solids)
 
 
-@cache
+@shared
 def plate_wheel(radius: float, spokes: int, hub: float, thick: float, bore: float, sides: int) -> Solid:
     """A pressed wheel about z: a flat disc with windows between its spokes, its hub from 0 to ``thick`` [m]."""
     rim, boss = 0.84 * radius, 1.5 * hub
@@ -64,7 +63,7 @@ def plate_wheel(radius: float, spokes: int, hub: float, thick: float, bore: floa
     return merge([disc, sleeve])
 
 
-@cache
+@shared
 def solid_wheel(radius: float, hub: float, thick: float, bore: float, sides: int) -> Solid:
     """A dished disc with a rolled edge about z, its hub from 0 to ``thick`` [m]."""
     sheet, lift = 0.005, 0.10 * radius
@@ -213,7 +212,7 @@ def topworks(
     return Topworks(bonnet, gland, yoke, stem, disc, low)
 
 
-@cache
+@shared
 def actuator_solids(radius: float) -> tuple[Solid, Solid]:
     """A rack-and-pinion actuator (ISO 5211 mounting) sized by the pipe's radius: body along x on z = 0, indicator."""
     half, reach = 0.028 + 0.45 * radius, 0.085 + 1.5 * radius

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from functools import cache
-
 import numpy as np
 
 from cadgraph.model.scene import Floats
@@ -19,6 +17,7 @@ from cadplants.solids.mesh_ops import (
     planar,
     reverse,
     revolve,
+    shared,
     tube,
     weld,
 )
@@ -28,7 +27,7 @@ from cadplants.styles.modeling_style import ModelingStyle
 __all__ = ["bend_tangent", "cap", "eccentric_reducer", "elbow", "outlet", "pipe", "reducer", "spool", "stub", "tee"]
 
 
-@cache
+@shared
 def _pipe_solid(dn: int, length: float, style: ModelingStyle) -> Solid:
     size = PIPES[dn]
     path = np.array([[0.0, 0.0, 0.0], [length, 0.0, 0.0]])
@@ -47,7 +46,7 @@ def bend_tangent(radius: float, first: Floats, second: Floats) -> float:
     return float(radius * np.tan(turn / 2))
 
 
-@cache
+@shared
 def _elbow_solid(dn: int, turn: float, style: ModelingStyle) -> Solid:
     size, radius = PIPES[dn], ELBOW_LONG_RADIUS[dn]
     reach = radius * np.tan(turn / 2)
@@ -69,7 +68,7 @@ def spool(dn: int, path: Floats, style: ModelingStyle) -> Assembly:
     return Assembly((Component(solid, "Pipe assembly", "pipe", style.color("pipe")),))
 
 
-@cache
+@shared
 def _outlet_solid(dn: int, foot: float, top: float, height: float, style: ModelingStyle) -> Solid:
     radius = PIPES[dn].radius
     sides = style.round(radius)
@@ -111,7 +110,7 @@ def outlet(dn: int, style: ModelingStyle, foot: float = 0.012, top: float = 0.00
     return Assembly((Component(solid, "Pipe assembly", "branch outlet", style.color("pipe")),))
 
 
-@cache
+@shared
 def _tee_solid(dn: int, branch: int, style: ModelingStyle) -> Solid:
     size, small, reach = PIPES[dn], PIPES[branch], TEE_CENTER_TO_END[dn]
     sides, long = style.round_fitting(size.radius), style.fittings == "long"
@@ -151,7 +150,7 @@ def tee(dn: int, branch: int, style: ModelingStyle) -> Device:
     return Device(Assembly((component,)), 2 * TEE_CENTER_TO_END[dn])
 
 
-@cache
+@shared
 def _reducer_solid(dn: int, other: int, style: ModelingStyle) -> Solid:
     if style.fittings == "long":
         return long_reducer(dn, other, style)
@@ -173,7 +172,7 @@ def reducer(dn: int, other: int, style: ModelingStyle) -> Device:
     return Device(Assembly((component,)), REDUCER_LENGTH[max(dn, other)])
 
 
-@cache
+@shared
 def _eccentric_solid(dn: int, other: int, style: ModelingStyle) -> Solid:
     if style.fittings == "long":
         return long_reducer(dn, other, style, eccentric=True)
@@ -199,7 +198,7 @@ def eccentric_reducer(dn: int, other: int, style: ModelingStyle) -> Device:
     return Device(Assembly((component,)), REDUCER_LENGTH[max(dn, other)])
 
 
-@cache
+@shared
 def _cap_solid(dn: int, style: ModelingStyle) -> Solid:
     size = PIPES[dn]
     angles = np.linspace(0, np.pi / 2, 7)
@@ -221,7 +220,7 @@ def cap(dn: int, style: ModelingStyle) -> Assembly:
     return Assembly((Component(_cap_solid(dn, style), "Pipe assembly", "pipe cap", style.color("pipe")),))
 
 
-@cache
+@shared
 def _stub_solid(dn: int, radius: float, length: float, sunk: float, style: ModelingStyle) -> Solid:
     size = PIPES[dn]
     sides = style.round(size.radius)

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from functools import cache
-
 import numpy as np
 
 from cadplants.model.contacts import met
 from cadplants.model.plant import Assembly, Component, Device, Unit
 from cadplants.model.standards import FLANGES, GAUGES, PIPES
-from cadplants.solids.mesh_ops import Solid, about_x, box, merge, moved, revolve, weld
+from cadplants.solids.mesh_ops import Solid, about_x, box, merge, moved, revolve, shared, weld
 from cadplants.solids.transforms import IDENTITY, at, spun
 from cadplants.styles.modeling_style import ModelingStyle
 
@@ -18,7 +16,7 @@ __all__ = ["cylinder", "gauge_of_primitives", "pump_of_primitives", "valve_of_pr
 _PLATE = 0.012  # m; thickness of the discs that stand for a device's own flanges
 
 
-@cache
+@shared
 def cylinder(radius: float, low: float, high: float, sides: int) -> Solid:
     """A solid cylinder about z between two heights [m]."""
     return weld([revolve([(0.0, low), (radius, low), (radius, high), (0.0, high)], sides)])
@@ -58,7 +56,7 @@ def valve_of_primitives(
     return Device(met(Assembly(parts, (), (Unit(unit, "valve", kind),))), length, 0, outlet, wafer)
 
 
-@cache
+@shared
 def _cone(wide: float, narrow: float, length: float, sides: int, flanged: bool) -> Solid:
     """A cone along x from its wide end at 0, maybe with a disc there."""
     rim = [(1.3 * wide, 0.0), (1.3 * wide, _PLATE), (wide, _PLATE)] if flanged else [(wide, 0.0)]

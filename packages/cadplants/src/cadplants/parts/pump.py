@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cache
 
 import numpy as np
 
@@ -13,7 +12,19 @@ from cadplants.model.plant import Assembly, Component, Unit
 from cadplants.model.standards import FLANGES, PIPES
 from cadplants.parts.flange import face_shell, plate_thickness
 from cadplants.parts.primitive_devices import pump_of_primitives
-from cadplants.solids.mesh_ops import Branch, Solid, about_x, box, branched, extrude, merge, moved, revolve, weld
+from cadplants.solids.mesh_ops import (
+    Branch,
+    Solid,
+    about_x,
+    box,
+    branched,
+    extrude,
+    merge,
+    moved,
+    revolve,
+    shared,
+    weld,
+)
 from cadplants.solids.polygon import circle, rounded_rectangle
 from cadplants.solids.transforms import at, looking, spun
 from cadplants.styles.modeling_style import ModelingStyle
@@ -56,7 +67,7 @@ def _size(dn: int) -> _Size:
     )
 
 
-@cache
+@shared
 def _casing_solid(dn: int, out: int, style: ModelingStyle) -> Solid:
     """Volute about x, suction towards -x, discharge towards +z, the shaft's axis on x; the volute's plane at x = 0."""
     size = _size(dn)
@@ -95,7 +106,7 @@ def _lid(rim: Floats) -> Solid:
     return Solid(np.vstack([rim, rim.mean(axis=0)]), faces.astype(np.int32))
 
 
-@cache
+@shared
 def _disc_flange(dn: int, style: ModelingStyle, back: float, bore: float, thick: float) -> Solid:
     """A flange with its face at z = 0 looking up, its back closed; a recess shows where the bore is."""
     sides = style.round(FLANGES[dn].outer / 2)
@@ -106,7 +117,7 @@ def _disc_flange(dn: int, style: ModelingStyle, back: float, bore: float, thick:
     return moved(weld([head, *inside, *floor, lid]), spun("x", np.pi))
 
 
-@cache
+@shared
 def _motor_solids(radius: float, length: float, sides: int, fins: int) -> tuple[Solid, Solid, Solid, Solid]:
     """Motor along x from 0 with cooling fins and feet's height aside, fan cover, terminal box, and its shaft end."""
     inner = 0.86 * radius
@@ -183,7 +194,7 @@ def pump(unit: str, dn: int, out: int, style: ModelingStyle) -> Pump:
     )
 
 
-@cache
+@shared
 def _bearing_solid(dn: int, style: ModelingStyle) -> Solid:
     """The bearing bracket behind the volute, along x from 0."""
     size = _size(dn)
@@ -194,7 +205,7 @@ def _bearing_solid(dn: int, style: ModelingStyle) -> Solid:
     return about_x(weld([revolve(profile, style.round(r))]))
 
 
-@cache
+@shared
 def _guard_solid(radius: float, length: float, drop: float) -> Solid:
     """A sheet bent over the coupling, its legs down to z = -``drop``, along x."""
     angles = np.linspace(0.0, np.pi, 17)
@@ -205,7 +216,7 @@ def _guard_solid(radius: float, length: float, drop: float) -> Solid:
     return about_x(extrude(np.concatenate([outer, inner]), 0.0, length))
 
 
-@cache
+@shared
 def _base_solids(dn: int, reach: float, height: float) -> tuple[Solid, Solid, Solid]:
     """Baseplate with its top at ``height``, feet of the casing, feet of the motor."""
     size = _size(dn)

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from functools import cache
-
 import numpy as np
 
 from cadplants.model.plant import Assembly, Component, Device
 from cadplants.model.standards import FACE_TO_FACE, FLANGES, PIPES
 from cadplants.parts.flange import face_shell, nut_room, plate_thickness
 from cadplants.parts.valve_body import bore_of
-from cadplants.solids.mesh_ops import Solid, about_x, merge, moved, revolve, weld
+from cadplants.solids.mesh_ops import Solid, about_x, merge, moved, revolve, shared, weld
 from cadplants.solids.primitives import around, cylinder, hexagon, rope, turned
 from cadplants.solids.transforms import at, spun
 from cadplants.styles.modeling_style import ModelingStyle
@@ -26,7 +24,7 @@ def _mouth(dn: int, style: ModelingStyle, length: float) -> Solid:
     return about_x(weld([face_shell(dn, sides, neck, bore, style.holes), revolve([*outside, *inside], sides)]))
 
 
-@cache
+@shared
 def _solids(dn: int, style: ModelingStyle) -> tuple[Solid, Solid]:
     """The body along x, and the lid about its own axis with its seat as high as it sits [m]."""
     length, radius, rim = FACE_TO_FACE["globe"][dn], PIPES[dn].radius, 0.5 * FLANGES[dn].outer

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from functools import cache
-
 import numpy as np
 
 from cadgraph.model.scene import Floats
 from cadplants.model.plant import Assembly, Component, gather
 from cadplants.model.standards import SECTIONS
-from cadplants.solids.mesh_ops import Solid, extrude, merge, moved, revolve, weld
+from cadplants.solids.mesh_ops import Solid, extrude, merge, moved, revolve, shared, weld
 from cadplants.solids.polygon import circle, rounded_rectangle, section_channel, section_i
 from cadplants.solids.transforms import at, looking, spun
 from cadplants.styles.modeling_style import ModelingStyle
@@ -24,7 +22,7 @@ _WHEEL = 0.05
 _TREAD = 0.032
 
 
-@cache
+@shared
 def _caster_solids() -> tuple[Solid, Solid, Solid]:
     """Fork with its plate, wheel and axle; the plate's top at z = 0, the swivel's axis on z."""
     trail, gap = 0.028, 0.036
@@ -75,7 +73,7 @@ def caster(style: ModelingStyle, turn: float = 0.0) -> Assembly:
     return Assembly(components, ((0, 1), (0, 2), (1, 2))).placed(spun("z", turn))
 
 
-@cache
+@shared
 def _channel_solid(length: float, height: float) -> Solid:
     """A channel along z about its middle, web on x = 0, open to +x; flanges 42 mm wide."""
     return extrude(section_channel(height, CHANNEL_WIDTH, 0.006, 0.007), -length / 2, length / 2)
@@ -122,7 +120,7 @@ def deck(length: float, width: float, style: ModelingStyle, thick: float = 0.006
     return Assembly(tuple(components), tuple(contacts))
 
 
-@cache
+@shared
 def _post_solid(height: float, side: float, wall: float) -> Solid:
     outer = rounded_rectangle(side, side, 2 * wall, 4)
     inner = rounded_rectangle(side - 2 * wall, side - 2 * wall, wall, 4)
@@ -154,14 +152,14 @@ def post(
     return Assembly(tuple(components), tuple((i, i + 1) for i in range(len(components) - 1)))
 
 
-@cache
+@shared
 def _base_solid(width: float, thick: float, hole: float) -> Solid:
     reach = width / 2 - 0.015
     holes = tuple(circle(hole, 12, (x, y)) for x in (-reach, reach) for y in (-reach, reach)) if hole else ()
     return extrude(rounded_rectangle(width, width, 0.01, 3), 0.0, thick, holes)
 
 
-@cache
+@shared
 def _section_solid(height: float, width: float, web: float, flange: float, length: float) -> Solid:
     return extrude(section_i(height, width, web, flange), 0.0, length)
 

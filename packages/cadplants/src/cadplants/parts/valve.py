@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cache
 
 import numpy as np
 
@@ -20,6 +19,7 @@ from cadplants.solids.mesh_ops import (
     about_x,
     branched,
     revolve,
+    shared,
     stack,
     weld,
 )
@@ -38,7 +38,7 @@ def valve_length(kind: str, dn: int) -> float:
 # --- ball valves ---
 
 
-@cache
+@shared
 def _ball_solids(dn: int, style: ModelingStyle, build: str, straight: bool) -> tuple[Solid, Solid, Solid, Solid, float]:
     """Body, end piece, stem with gland, lever (about its foot); and the height of the lever's underside."""
     size, radius, length = FLANGES[dn], PIPES[dn].radius, valve_length("ball", dn)
@@ -108,7 +108,7 @@ def ball_valve(
 # --- globe valves ---
 
 
-@cache
+@shared
 def _globe_solids(dn: int, style: ModelingStyle, spokes: int, design: str, build: str) -> tuple[Solid, Topworks]:
     """Body, and what stands on it."""
     size, radius, length = FLANGES[dn], PIPES[dn].radius, valve_length("globe", dn)

@@ -47,18 +47,11 @@ def assemble(
     turning = [(pose, _TURNS[name]) for _, pose, name, _ in pieces if name in _TURNS]
     inner = [Turning("gear operator" if geared else kind).placed(pose) for pose, kind in turning][:1]
     if style.valve == "one":
-        whole = merge([moved(solid, pose) for solid, pose, _, _ in pieces])
-        pieces, contacts = [(whole, IDENTITY, "valve", "valve")], ()
-        outlet = 0
+        pieces, contacts, outlet = [_joined(pieces, "valve")], (), 0
     elif style.valve == "few":
-        bodies = [p for p in pieces if p[2] not in _OPERATORS]
         rest = [p for p in pieces if p[2] in _OPERATORS]
-        whole = merge([moved(solid, pose) for solid, pose, _, _ in bodies])
-        pieces, contacts = (
-            [(whole, IDENTITY, "valve body", "valve"), *rest],
-            tuple((min(k, 1), k + 1) for k in range(len(rest))),
-        )
-        outlet = 0
+        pieces = [_joined([p for p in pieces if p[2] not in _OPERATORS], "valve body"), *rest]
+        contacts, outlet = tuple((min(k, 1), k + 1) for k in range(len(rest))), 0
     assembly = Assembly(
         tuple(
             Component(s, "Valve assembly", name, style.color(c), pose, unit, turns=_turning(name, pose, inner))
@@ -68,6 +61,11 @@ def assemble(
         (Unit(unit, "valve", kind),),
     )
     return Device(assembly, length, 0, outlet)
+
+
+def _joined(pieces: list[Piece], name: str) -> Piece:
+    """Pieces as one mesh of a name."""
+    return merge([moved(solid, pose) for solid, pose, _, _ in pieces]), IDENTITY, name, "valve"
 
 
 def _turning(name: str, pose: Floats, inner: list[Turning]) -> Turning | None:

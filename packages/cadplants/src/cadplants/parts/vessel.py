@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cache
 
 import numpy as np
 
@@ -14,7 +13,7 @@ from cadplants.model.standards import PIPES
 from cadplants.parts.fastener import clamping
 from cadplants.parts.flange import GASKET, bolts, flange, flange_length, gasket, plate_thickness
 from cadplants.parts.piping import stub
-from cadplants.solids.mesh_ops import Solid, extrude, revolve, weld
+from cadplants.solids.mesh_ops import Solid, extrude, revolve, shared, weld
 from cadplants.solids.polygon import circle, rounded_rectangle
 from cadplants.solids.transforms import at, looking, spun
 from cadplants.styles.modeling_style import ModelingStyle
@@ -62,7 +61,7 @@ class Tank:
     top: float
 
 
-@cache
+@shared
 def _shell_solids(radius: float, height: float, sides: int) -> tuple[Solid, Solid]:
     """Shell from z = 0, and a head whose open end is at z = 0."""
     inner = radius - _WALL
@@ -76,7 +75,7 @@ def _shell_solids(radius: float, height: float, sides: int) -> tuple[Solid, Soli
     return shell, weld([revolve([*outside, *inside], sides)])
 
 
-@cache
+@shared
 def _leg_solids(height: float, side: float) -> tuple[Solid, Solid]:
     outer, hollow = rounded_rectangle(side, side, 0.008, 3), rounded_rectangle(side - 0.01, side - 0.01, 0.004, 3)
     holes = tuple(circle(0.009, 12, (x, y)) for x in (-0.07, 0.07) for y in (-0.07, 0.07))

@@ -464,17 +464,15 @@ def _supports(work: _Draw, style: ModelingStyle, laid: Laid) -> list[Assembly]:
     return parts
 
 
-_SPOOL = ("pipe", "elbow", "flange")
+# Names of two pieces that are welded to each other; flanges are bolted.
+_WELDED = ({"pipe"}, {"elbow"}, {"pipe", "elbow"}, {"pipe", "flange"}, {"elbow", "flange"})
 
 
 def _spooled(whole: Assembly) -> Assembly:
     """Pipes, elbows and flanges that are welded to each other as one mesh called pipe; flanges stay apart."""
-    names = [c.name if c.group == "Pipe assembly" and c.family not in ALL_FAMILIES else "" for c in whole.components]
-    joined = [
-        (a, b)
-        for a, b in whole.contacts
-        if names[a] in _SPOOL and names[b] in _SPOOL and (names[a], names[b]) != ("flange", "flange")
-    ]
+    plain = [c.group == "Pipe assembly" and c.family not in ALL_FAMILIES for c in whole.components]
+    names = [c.name if own else "" for c, own in zip(whole.components, plain, strict=True)]
+    joined = [(a, b) for a, b in whole.contacts if {names[a], names[b]} in _WELDED]
     spools = connected_sets(range(len(names)), joined)
     components = []
     for spool in spools:

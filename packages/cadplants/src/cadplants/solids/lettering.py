@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from functools import cache
-
 from cadgraph.model.scene import Floats
-from cadplants.solids.mesh_ops import Solid, box, merge, moved
+from cadplants.solids.mesh_ops import Solid, box, merge, moved, shared
 from cadplants.solids.transforms import at, spun
 
 __all__ = ["letters"]
@@ -26,7 +24,7 @@ _LETTERS = {
 }  # fmt: skip
 
 
-@cache
+@shared
 def _letter(letter: str, height: float, thick: float) -> Solid:
     """A letter in the plane z = 0 from its lower left corner, ``thick`` high; strokes are bars across each other."""
     step, half = height / 4, 0.07 * height

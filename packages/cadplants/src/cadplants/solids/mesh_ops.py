@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 import numpy.typing as npt
@@ -31,12 +32,17 @@ __all__ = [
     "planar",
     "reverse",
     "revolve",
+    "shared",
     "stack",
     "sweep",
     "tube",
     "volume",
     "weld",
 ]
+
+shared = lru_cache(maxsize=1024)
+"""For functions that make shapes: repeats are one ``Solid``. Each keeps its last thousand, more than a plant asks for,
+so that whoever makes many plants does not keep the shapes of all."""
 
 _WELD = 1e-9  # m; corners of shells closer than this are one
 

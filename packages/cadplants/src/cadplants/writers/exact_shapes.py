@@ -333,26 +333,26 @@ def _tube(low: list[_Ring], high: list[_Ring], content: float) -> _Found | None:
     return "ring", (inner.radius, outer.radius, height), _shifted((low[0].center + high[0].center) / 2)
 
 
+def _off_ellipsoid(profile: list[tuple[float, float]]) -> float:
+    """How far radii over heights, from the rim to the apex, are from those of an ellipsoid [m]."""
+    radius, height = profile[0][0], profile[-1][1]
+    return float(max(abs(r - radius * np.sqrt(max(0.0, 1 - (h / height) ** 2))) for r, h in profile))
+
+
 def _dish(levels: list[list[_Ring]], content: float) -> _Found | None:
     """Half an ellipsoid on its base, which may lie above or below."""
     rings = [level[0] for level in levels]
-    if any(len(level) != 1 for level in levels) or not _coaxial(rings):
+    if len(rings) < 3 or {len(level) for level in levels} != {1} or not _coaxial(rings):
         return None
     turned = rings[0].sides == 1
-    if turned:
-        rings = rings[::-1]
+    rings = rings[::-1] if turned else rings
     base, top = rings[0], rings[-1]
     if top.sides != 1 or any(ring.sides != base.sides for ring in rings[:-1]):
         return None
     heights = [abs(float(ring.center[2] - base.center[2])) for ring in rings]
     height = heights[-1]
-    on = [
-        abs(r.radius - base.radius * np.sqrt(max(0.0, 1 - (h / height) ** 2)))
-        for r, h in zip(rings, heights, strict=True)
-    ]
-    if max(on) > _EXACT or len(rings) < 3:
-        return None
-    if not _close(_revolved([(r.radius, h) for r, h in zip(rings, heights, strict=True)], base.sides), content):
+    profile = [(ring.radius, h) for ring, h in zip(rings, heights, strict=True)]
+    if _off_ellipsoid(profile) > _EXACT or not _close(_revolved(profile, base.sides), content):
         return None
     pose = _shifted(base.center)
     if turned:

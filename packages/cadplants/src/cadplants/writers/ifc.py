@@ -43,12 +43,8 @@ def write(plant: Plant, style: FileStyle, stem: str) -> Written:
     inventory = take(plant)
     claims = claim(plant, inventory, style.metadata)
     writer = _Writer(plant, inventory, claims, Frame(unit, "Z"))
-    spoilt: dict[str, list[str]] = {
-        "wrong_classes": [writer.paths[i] for i, c in enumerate(claims.components) if c is not None and not c.true],
-        "missing_names": [writer.paths[i] for i, c in enumerate(claims.components) if c is None],
-    }
-    extra: dict[str, object] = {key: value for key, value in spoilt.items() if value}
-    return Written({".ifc": writer.data(stem)}, tuple(writer.paths), unit, "Z", {}, extra)
+    data = writer.data(stem)  # fills the paths
+    return Written({".ifc": data}, tuple(writer.paths), unit, "Z", {}, claims.spoilt(writer.paths))
 
 
 class _Writer:

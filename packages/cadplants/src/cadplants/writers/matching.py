@@ -113,6 +113,12 @@ def _named(
     )
 
 
+def _paths_now(found: Match) -> dict[str, tuple[str, ...]]:
+    """The paths that each mesh of a truth has in the scene."""
+    now: dict[str, tuple[str, ...]] = {old: (new,) for old, new in found.same.items()} | found.split
+    return now | {old: (new,) for new, some in found.merged.items() for old in some}
+
+
 def truth_for(scene: Scene, truth: Truth, tolerance: float = _TOLERANCE) -> Truth:
     """The truth in terms of a scene's own paths.
 
@@ -130,8 +136,7 @@ def truth_for(scene: Scene, truth: Truth, tolerance: float = _TOLERANCE) -> Trut
         ValueError: the truth does not say where its meshes lie.
     """
     found = match(scene, truth, tolerance)
-    now: dict[str, tuple[str, ...]] = {old: (new,) for old, new in found.same.items()} | found.split
-    now |= {old: (new,) for new, some in found.merged.items() for old in some}
+    now = _paths_now(found)
     data = truth.to_json()
     data["meshes"] = _labels(scene, data["meshes"], now)
     _map_units(data, now)
@@ -143,9 +148,8 @@ def truth_for(scene: Scene, truth: Truth, tolerance: float = _TOLERANCE) -> Trut
     data["duplicates"] = _mapped_pairs(data["duplicates"], now) or []
     if "devices" in data:
         data["devices"] = [row for row in _grouped(data["devices"], "meshes", now) or () if row["meshes"]]
-    for section in ("hidden", "wrong_classes", "missing_names"):
-        if section in data:
-            data[section] = list(_flat(data[section], now))
+    for section in {"hidden", "wrong_classes", "missing_names"} & data.keys():
+        data[section] = list(_flat(data[section], now))
     for section in ("flaws", "gaps"):
         data[section] = {path: value for old, value in data[section].items() for path in now.get(old, ())}
     return Truth.from_json(data)

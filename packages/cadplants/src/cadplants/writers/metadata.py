@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -73,6 +74,13 @@ class Claims:
 
     items: tuple[Claim | None, ...]
     components: tuple[Claim | None, ...]
+
+    def spoilt(self, paths: Sequence[str]) -> dict[str, object]:
+        """The paths of components whose class is wrong and whose name is missing, where there are any."""
+        told = list(zip(paths, self.components, strict=True))
+        wrong = [path for path, said in told if said is not None and not said.true]
+        missing = [path for path, said in told if said is None]
+        return {key: some for key, some in (("wrong_classes", wrong), ("missing_names", missing)) if some}
 
 
 def claim(plant: Plant, inventory: Inventory, metadata: Metadata) -> Claims:

@@ -54,15 +54,9 @@ def write(plant: Plant, style: FileStyle, stem: str) -> Written:
     site = grow(plant, inventory, claims, tubes)
     writer = _Writer(plant, placed, shapes, stem)
     writer.fill(site)
-    spoilt = {
-        "wrong_classes": [writer.paths[i] for i, c in enumerate(claims.components) if c is not None and not c.true],
-        "missing_names": [writer.paths[i] for i, c in enumerate(claims.components) if c is None],
-    }
     boxes = {i: box for i, one in enumerate(placed) if (box := shapes[one.shape].box(one)) is not None}
     files = {".rvm": writer.data, ".att": _attributes(plant, site).encode("ascii", "replace")}
-    return Written(
-        files, tuple(writer.paths), 0.001, "Z", boxes, {key: value for key, value in spoilt.items() if value}
-    )
+    return Written(files, tuple(writer.paths), 0.001, "Z", boxes, claims.spoilt(writer.paths))
 
 
 class _Shape:

@@ -119,28 +119,32 @@ class Reflex(_Beside, name="level gauge/reflex", weight=1.5):
         self.vessel.build(t, low, high, self.mouth)
         metal = [moved(arm, at(-x)) for arm in _arms(low, high, self.mouth, x, t.style)]
         metal += _cocks(low, high, self.wheel, t.style)
-        frame = rounded_rectangle(wide, 0.97 * each, 0.3 * wide, 3)
-        slot = rounded_rectangle(0.4 * wide, 0.85 * each, 0.18 * wide, 3)
-        front, back, mid, hollow = deep / 2, -deep / 2, 0.2 * deep, t.style.hollow
-        chamber = extrude(frame, -mid, mid, (slot,) if hollow else ())
-        covers = [extrude(frame, back, -mid, (slot,) if self.both else ()), extrude(frame, mid, front, (slot,))]
-        glasses = [extrude(0.99 * slot, mid, front - 0.006)]
-        glasses += [extrude(0.99 * slot, back + 0.006, -mid)] if self.both else []
+        front, back, hollow = deep / 2, -deep / 2, t.style.hollow
+        frames, glasses = self._frames(hollow)
         nut = merge([cylinder(0.005, back - 0.006, front + 0.01, 8), hexagon(0.016, front, front + 0.008)])
         ys = np.linspace(-0.42, 0.42, max(3, int(each / 0.06))) * each
         nuts = [moved(nut, at(s * 0.37 * wide, y)) for s in (-1, 1) for y in ys]
         places = [low + 0.07 + (k + 0.5) * each for k in range(self.sections)]
-        metal += [along("-y", one, 0, 0, z) for z in places for one in (chamber, *covers)]
+        metal += [along("-y", one, 0, 0, z) for z in places for one in frames]
         reach = 0.48 * each  # from a frame's middle into its end
         starts, ends = [low, *(z + reach for z in places)], [*(z - reach for z in places), high]
         metal += [ring(0.006 if hollow else 0.0, 0.01, *span, 10) for span in zip(starts, ends, strict=True)]
-        if self.drained:
-            metal += [cylinder(0.008, low - 0.06, low, 10), hexagon(0.024, low - 0.065, low - 0.04)]
+        drain = [cylinder(0.008, low - 0.06, low, 10), hexagon(0.024, low - 0.065, low - 0.04)]
         t = t.at(x)
-        t.add(_NAME, *metal)
+        t.add(_NAME, *metal, *drain[: 2 * self.drained])
         t.add("gauge glass", *(along("-y", glass, 0, 0, z) for z in places for glass in glasses), front=BEFORE)
         t.add("bolt", *(along("-y", one, 0, 0, z) for z in places for one in nuts))
         return t.model(kind=_NAME)
+
+    def _frames(self, hollow: bool) -> tuple[list[Solid], list[Solid]]:
+        """Chamber and covers of one section, and its glasses, upright in x and y about the origin."""
+        wide, front, mid = self.wide, self.deep / 2, 0.2 * self.deep
+        frame = rounded_rectangle(wide, 0.97 * self.each, 0.3 * wide, 3)
+        slot = rounded_rectangle(0.4 * wide, 0.85 * self.each, 0.18 * wide, 3)
+        frames = [extrude(frame, -mid, mid, (slot,) if hollow else ())]
+        frames += [extrude(frame, -front, -mid, (slot,) if self.both else ()), extrude(frame, mid, front, (slot,))]
+        glasses = [extrude(0.99 * slot, mid, front - 0.006)]
+        return frames, [*glasses, *([extrude(0.99 * slot, -front + 0.006, -mid)] if self.both else [])]
 
 
 class Tubular(_Beside, name="level gauge/tubular", weight=1.5):

@@ -389,7 +389,13 @@ def _guard(kind: str, r: float, x0: float, x1: float, axis: float, seat: float, 
         stay = box((0.1 * length, 0.5 * r, below - 0.95 * r), (mid, 0, (seat + axis - 0.95 * r) / 2))
         shell = along("x", merge([ring(r - thin, r, 0, length, n), *hoops]), x0, 0, axis)
         return [shell, stay] if below > 1.1 * r else [shell]
-    wire = max(0.0015, 0.03 * r)
+    return _caged(kind == "halves", r, (x0, x1), axis, seat)
+
+
+def _caged(halved: bool, r: float, ends: tuple[float, float], axis: float, seat: float) -> list[Solid]:
+    """A guard of wires, maybe in two halves with a rib where they meet."""
+    (x0, x1), below, thin = ends, axis - seat, max(0.0015, 0.02 * r)
+    length, mid, wire = x1 - x0, (x0 + x1) / 2, max(0.0015, 0.03 * r)
     solids = [
         rope([(x, y, axis + z) for y, z in _arch(r, below, 9)], wire, 5)
         for x in np.linspace(x0 + wire, x1 - wire, int(np.clip(length / (0.22 * r), 4, 10)))
@@ -398,7 +404,7 @@ def _guard(kind: str, r: float, x0: float, x1: float, axis: float, seat: float, 
         y, z = r * np.cos(a), axis + r * np.sin(a)
         solids.append(rod((x0, y, z), (x1, y, z), wire, 5))
     solids += [box((length, 0.12 * r, thin + 0.003), (mid, s * r, seat + (thin + 0.003) / 2)) for s in BOTH]
-    if kind == "halves":
+    if halved:
         solids.append(box((length, 0.02 * r + 0.002, 0.2 * r), (mid, 0, axis + r)))
     return solids
 

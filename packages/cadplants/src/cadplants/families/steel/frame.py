@@ -341,15 +341,7 @@ class Fence(Structure, name="fence/panel", weight=1.5, grain="fitting"):
         for x, is_round in zip((0.0, long), self.rounds, strict=True):
             flat = box((0.06, 0.04, h + 0.1), (x, 0, (h + 0.1) / 2))
             t.add("post", rod((x, 0, 0), (x, 0, h + 0.1), 0.03, n) if is_round else flat, of="fence")
-        if self.fill == "wires":
-            wires = [rod((x, 0, 0.05), (x, 0, h), 0.003, 6) for x in np.arange(0.06, long - 0.03, 0.08)]
-            wires += [rod((0.03, 0.004, z), (long - 0.03, 0.004, z), 0.004, 6) for z in np.linspace(0.08, h - 0.05, 8)]
-        elif self.fill == "planks":
-            wires = [box((long - 0.06, 0.02, 0.12), (long / 2, 0, z)) for z in np.arange(0.15, h, 0.18)]
-        else:
-            wires = [box((long - 0.06, 0.003, h - 0.1), (long / 2, 0, h / 2 + 0.05))]
-            wires += [box((long - 0.06, 0.03, 0.04), (long / 2, 0.015, z)) for z in (0.2, h - 0.1)]
-        t.add("fence", *wires)
+        t.add("fence", *self._filling())
         if self.gated:
             a, b = long + 0.08, long + 1.0
             leaf = [rod((a, 0, z), (b, 0, z), 0.02, n) for z in (0.1, h)]
@@ -362,6 +354,19 @@ class Fence(Structure, name="fence/panel", weight=1.5, grain="fitting"):
             t.add("gate", *leaf, *(bars or [rod((a, 0, 0.1), (b, 0, h), 0.015, n)]))
             t.add("bracket", *(moved(cylinder(0.014, 0, 0.08, 10), at(long + 0.05, 0, z)) for z in (0.25, h - 0.3)))
         return t.model()
+
+    def _filling(self) -> list[Solid]:
+        """What is between the posts."""
+        long, h = self.length, self.height
+        if self.fill == "wires":
+            wires = [rod((x, 0, 0.05), (x, 0, h), 0.003, 6) for x in np.arange(0.06, long - 0.03, 0.08)]
+            return wires + [
+                rod((0.03, 0.004, z), (long - 0.03, 0.004, z), 0.004, 6) for z in np.linspace(0.08, h - 0.05, 8)
+            ]
+        if self.fill == "planks":
+            return [box((long - 0.06, 0.02, 0.12), (long / 2, 0, z)) for z in np.arange(0.15, h, 0.18)]
+        sheet = box((long - 0.06, 0.003, h - 0.1), (long / 2, 0, h / 2 + 0.05))
+        return [sheet, *(box((long - 0.06, 0.03, 0.04), (long / 2, 0.015, z)) for z in (0.2, h - 0.1))]
 
 
 class Concrete(Structure, name="foundation/concrete", weight=1.5, grain="fitting"):

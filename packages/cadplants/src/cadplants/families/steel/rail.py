@@ -134,6 +134,13 @@ class SideFixed(Structure, name="railing/side fixed"):
         return t.model()
 
 
+def _mesh(w: float, h: float) -> Solid:
+    """Wires across each other."""
+    wires = [rod((x, 0, 0), (x, 0, h), 0.002, 4) for x in np.linspace(0, w, int(w / 0.07) + 2)[1:-1]]
+    wires += [rod((0, 0.003, z), (w, 0.003, z), 0.002, 4) for z in np.linspace(0, h, int(h / 0.07) + 2)[1:-1]]
+    return merge(wires)
+
+
 def _fill(kind: str, w: float, h: float, style: ModelingStyle) -> list[Solid]:
     """What fills a frame of this width and height from the origin in x and z: bars, wires, sheet, glass, slats."""
     if kind == "bars":
@@ -141,9 +148,7 @@ def _fill(kind: str, w: float, h: float, style: ModelingStyle) -> list[Solid]:
     if kind == "wires":
         return [rod((0, 0, z), (w, 0, z), 0.003, 6) for z in np.arange(0.1, h, 0.1)]
     if kind == "mesh":
-        wires = [rod((x, 0, 0), (x, 0, h), 0.002, 4) for x in np.linspace(0, w, int(w / 0.07) + 2)[1:-1]]
-        wires += [rod((0, 0.003, z), (w, 0.003, z), 0.002, 4) for z in np.linspace(0, h, int(h / 0.07) + 2)[1:-1]]
-        return [merge(wires)]
+        return [_mesh(w, h)]
     if kind == "sheet":
         spots = [(x, z) for x in np.arange(0.1, w - 0.08, 0.12) for z in np.arange(0.1, h - 0.08, 0.12)]
         holes = tuple(circle(0.012, 6, spot) for spot in spots) if style.holes else ()

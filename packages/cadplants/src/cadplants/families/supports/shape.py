@@ -112,6 +112,21 @@ def add_nuts(t: Table, spots: Sequence[Point], d: float, washer: bool = True, tw
             under.add("nut", hexagon(1.6 * d, high, high + 0.5 * d, d / 2, n))
 
 
+def _head(kind: str, d: float, grip: float, n: int) -> Solid:
+    """The head of a bolt of diameter ``d`` over what it clamps [m]; the end of a stud."""
+    if kind == "hex":
+        return hexagon(1.55 * d, grip + 0.16 * d, grip + 0.16 * d + 0.65 * d)
+    if kind == "none":
+        return hexagon(1.55 * d, grip, grip + 0.65 * d)
+    if kind == "socket":
+        return cylinder(0.75 * d, grip, grip + d, n)
+    if kind == "carriage":
+        return dome(1.1 * d, 0.55 * d, grip, n)
+    if kind == "flange":
+        return merge([hexagon(1.5 * d, grip, grip + 0.8 * d), cylinder(1.1 * d, grip, grip + 0.2 * d, n)])
+    return cylinder(d / 2, grip, grip + 1.35 * d, n)
+
+
 def add_bolt(t: Table, d: float, grip: float, head: str = "hex", own: Sequence[str] = ()) -> None:
     """A bolt along z that clamps what lies between 0 and ``grip``; its head on top, its nut below [m].
 
@@ -125,18 +140,7 @@ def add_bolt(t: Table, d: float, grip: float, head: str = "hex", own: Sequence[s
     """
     n, flat = few(d, t.style), 0.16 * d
     shank = cylinder(d / 2, -1.35 * d if head != "none" else -0.2 * d, grip + 0.1 * d, n)
-    if head == "hex":
-        top = hexagon(1.55 * d, grip + flat, grip + flat + 0.65 * d)
-    elif head == "none":
-        top = hexagon(1.55 * d, grip, grip + 0.65 * d)
-    elif head == "socket":
-        top = cylinder(0.75 * d, grip, grip + d, n)
-    elif head == "carriage":
-        top = dome(1.1 * d, 0.55 * d, grip, n)
-    elif head == "flange":
-        top = merge([hexagon(1.5 * d, grip, grip + 0.8 * d), cylinder(1.1 * d, grip, grip + 0.2 * d, n)])
-    else:
-        top = cylinder(d / 2, grip, grip + 1.35 * d, n)
+    top = _head(head, d, grip, n)
     name = {"stud": "stud", "socket": "screw"}.get(head, "bolt")
     solids = [(name, merge([shank, top]))]
     if head != "none":

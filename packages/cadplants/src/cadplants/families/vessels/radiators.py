@@ -194,12 +194,10 @@ class Plinth(_Radiator, name="radiator/plinth", weight=0.8):
     def build(self, t: Table) -> Model:
         w, gap, low, z0 = self.width, 0.035, 0.1, 0.14
         tall, deep = self.tube_rows * 0.075, (self.columns - 1) * gap
-        middle, spots = (
-            deep / 2,
-            [(j * gap, z0 + i * 0.075) for i in range(self.tube_rows) for j in range(self.columns)],
-        )
-        flat, tube = box((w, 0.011, 0.07)), rod((-w / 2, 0, 0), (w / 2, 0, 0), 0.0125, 10)
-        tubes = [moved(flat if self.flat else tube, at(0, y, z)) for y, z in spots]
+        middle = deep / 2
+        tube = box((w, 0.011, 0.07)) if self.flat else rod((-w / 2, 0, 0), (w / 2, 0, 0), 0.0125, 10)
+        places = np.ndindex(self.tube_rows, self.columns)
+        tubes = [moved(tube, at(0, j * gap, z0 + i * 0.075)) for i, j in places]
         for solid in [merge(tubes)] if self.joined else tubes:
             t.add(_RAD, solid, of="dial")
         ends = [box((0.035, deep + 0.03, tall), (s * (w / 2 + 0.012), middle, low + tall / 2)) for s in BOTH]
