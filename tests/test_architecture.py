@@ -106,6 +106,7 @@ PLANTS_MAY_IMPORT = {
     "truth": {"model"},
     "writers": {"model", "solids", "truth"},
     "cli": {"builder", "faults", "model", "presets", "truth", "writers", "__init__"},
+    "__main__": {"cli"},
     "__init__": {"faults", "model", "presets", "styles", "writers"},
 }
 TABLES = {"cadgraph": MAY_IMPORT, "cadplants": PLANTS_MAY_IMPORT}

@@ -31,7 +31,7 @@ CONTENT = (
 """Files that the product reads at run time, one of each kind."""
 UNITS = {"gauge": 7, "pump": 2, "tank": 2, "valve": 13}
 """What the demo must find."""
-MISSING = "comes with the package cadplants: pip install cadplants"
+MISSING = "comes with the package cadplants: in the checkout of cadgraph, pip install ./packages/cadplants"
 _UNREACHABLE = 3
 
 

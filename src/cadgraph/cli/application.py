@@ -19,7 +19,7 @@ from cadgraph.cli.screen import err, out
 from cadgraph.cli.signals import Stopped, stoppable
 from cadgraph.errors import CadGraphError
 
-__all__ = ["app", "main"]
+__all__ = ["app", "main", "run"]
 
 app = typer.Typer(
     cls=Root,
@@ -40,9 +40,19 @@ def main(arguments: Sequence[str] | None = None) -> None:
     atexit.register(gc.freeze)
     # Here and not on import: what other packages bring imports this one.
     add_installed(app)
+    run(app, arguments)
+
+
+def run(commands: typer.Typer, arguments: Sequence[str] | None = None) -> None:
+    """Runs commands of this package or of another; what they refuse is one line, and the process ends as in ``main``.
+
+    Args:
+        commands: as they are registered.
+        arguments: of the command line; those of the process by default.
+    """
     try:
         with stoppable():
-            app(arguments)
+            commands(arguments)
     except (CadGraphError, ValueError) as error:
         _refuse(str(error))
     except MemoryError:

@@ -6,6 +6,7 @@ import importlib
 import importlib.util
 import json
 import sys
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from types import ModuleType
@@ -28,9 +29,22 @@ if TYPE_CHECKING:
     from cadplants.writers.plant_file import FileStyle
     from cadplants.writers.usd_style import UsdStyle
 
-__all__ = ["plants"]
+__all__ = ["main", "plants"]
 
-plants = typer.Typer(no_args_is_help=True, help="Generate test plants with their ground truth, and check them.")
+plants = typer.Typer(
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
+    help="Generate test plants with their ground truth, and check them.",
+)
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """The command ``cadplants``: what ``cadgraph environment`` is, by itself."""
+    from cadgraph.cli.application import run
+
+    run(plants, arguments)
 
 
 _With = Annotated[
