@@ -108,7 +108,8 @@ def arcs_of(layer: Any) -> LayerArcs:
         sizes.append(1)
         # The library takes ten times as long to list the children of a prim that has none as to say so.
         if prim.HasInfo("primChildren"):
-            children = list(prim.nameChildren.values())
+            # A damaged file may name children that it doesn't hold.
+            children = [child for child in prim.nameChildren.values() if child]
             inner.append((str(prim.path), number))
             stack.extend([(child, number) for child in children])
         sets = prim.variantSets
@@ -129,7 +130,9 @@ def arcs_of(layer: Any) -> LayerArcs:
 def _variants(sets: Any) -> tuple[tuple[Any, ...], ...]:
     # A damaged file may name sets and variants that it doesn't hold.
     return tuple(
-        tuple(variant.primSpec for variant in one.variants.values() if variant) for one in sets.values() if one
+        tuple(variant.primSpec for variant in one.variants.values() if variant and variant.primSpec)
+        for one in sets.values()
+        if one
     )
 
 
