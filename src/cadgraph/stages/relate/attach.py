@@ -262,7 +262,7 @@ def facings_of(made: Mapping[int, Offer]) -> tuple[Facing, ...]:
     # Of a joint's two ends the first is enough, unless that one has another joint.
     firsts = [
         offer for row, offer in made.items()
-        if _is_face(offer) and (row == offer.row or made.get(offer.row) is not offer)
+        if offer.of_two_ends and (row == offer.row or made.get(offer.row) is not offer)
     ]  # fmt: skip
     faces = list({(offer.row, offer.other): offer for offer in firsts}.values())
     odds = np.array([offer.odds for offer in faces])
@@ -276,7 +276,7 @@ def facings_of(made: Mapping[int, Offer]) -> tuple[Facing, ...]:
 
 def singles_of(made: Mapping[int, Offer]) -> list[tuple[int, Offer]]:
     """The joints of one end only with the rows of these, ascending: at solids, and on the sides of lines."""
-    return sorted(((row, offer) for row, offer in made.items() if not _is_face(offer)), key=lambda item: item[0])
+    return sorted(((row, offer) for row, offer in made.items() if not offer.of_two_ends), key=lambda item: item[0])
 
 
 def _double(
@@ -286,7 +286,7 @@ def _double(
     doubled: list[tuple[int, int]] = []
     gone: set[int] = set()
     for row in range(len(ends.part)):
-        if _is_face(made.get(row)):
+        if row in made and made[row].of_two_ends:
             continue
         there = [r for r in _beside(ends, row, near) if r not in gone and not _is_partner(ends, made.get(r), row)]
         twin = same_place(ends, row, there, max(_TWIN * bridge, _TWIN_SHARE * float(ends.radius[row])))
@@ -294,11 +294,6 @@ def _double(
             doubled.append((row, twin))
             gone.add(row)
     return doubled
-
-
-def _is_face(offer: Offer | None) -> bool:
-    """Whether a made joint is one of two ends."""
-    return offer is not None and offer.kind in ("face", "corner")
 
 
 def _beside(ends: Ends, row: int, near: Mapping[int, Sequence[tuple[int, float]]]) -> list[int]:
@@ -309,7 +304,7 @@ def _beside(ends: Ends, row: int, near: Mapping[int, Sequence[tuple[int, float]]
 
 def _is_partner(ends: Ends, offer: Offer | None, row: int) -> bool:
     """Whether a made joint is one with the other end of the part that an end belongs to, which looks the same way."""
-    if offer is None or not _is_face(offer):
+    if offer is None or not offer.of_two_ends:
         return False
     return int(ends.part[row]) in (int(ends.part[offer.row]), int(ends.part[offer.other]))
 
@@ -330,7 +325,7 @@ def _yields(ends: Ends, made: Mapping[int, Offer], row: int, twin: int) -> bool:
     mine, theirs = made.get(row), made.get(twin)
     if theirs is None:
         return mine is None and (ends.length[row], row) <= (ends.length[twin], twin)
-    if mine is None or theirs.kind in ("face", "corner"):
+    if mine is None or theirs.of_two_ends:
         return True
     return (round(mine.odds, 6), -row) < (round(theirs.odds, 6), -twin)
 

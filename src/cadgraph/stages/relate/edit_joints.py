@@ -141,7 +141,7 @@ def _make(chance: _Chance, made: dict[int, Offer], refused: dict[int, Offer], at
     rows = (offer.row, offer.other) if offer.kind == "face" else (offer.row,)
     for row in rows:
         former = made.pop(row, None)
-        if former is not None and former.kind in ("face", "corner"):
+        if former is not None and former.of_two_ends:
             other = former.other if former.row == row else former.row
             if made.get(other) is former:
                 refused[other] = made.pop(other)

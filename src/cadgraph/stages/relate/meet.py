@@ -75,9 +75,9 @@ def _rows_at_devices(
     contacts = piping.given.contacts
     places = _places(piping, units, free)
     wanted = {pair for pair in pairs if any(_is_on(pair, *place) for place in places)}
-    gaps = contacts.distance.tolist()
-    rows = [row for row, pair in enumerate(contacts.plain_pairs) if pair in wanted and gaps[row] <= _SCREWED]
-    return sorted(rows, key=lambda row: (gaps[row], row))
+    gaps = contacts.distance
+    rows = [row for row in map(contacts.row_of.__getitem__, wanted) if gaps[row] <= _SCREWED]
+    return sorted(rows, key=lambda row: (float(gaps[row]), row))
 
 
 def _places(

@@ -116,9 +116,14 @@ class Offer(NamedTuple):
         """How sure it is, 0..1."""
         return score_of(self.odds)
 
+    @property
+    def of_two_ends(self) -> bool:
+        """Whether the other is an end, too."""
+        return self.kind in ("face", "corner")
+
     def part(self, ends: Ends) -> int:
         """The part that the end would join."""
-        return int(ends.part[self.other]) if self.kind in ("face", "corner") else self.other
+        return int(ends.part[self.other]) if self.of_two_ends else self.other
 
     @property
     def reasons(self) -> tuple[str, ...]:

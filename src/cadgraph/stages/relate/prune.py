@@ -148,7 +148,7 @@ def _joined_parts(found: Attachments) -> Iterator[tuple[int, int]]:
     """For each joint of a line the part that carries it and the other one; a part in a sleeve leads nowhere."""
     for row, offer in found.made.items():
         part = int(found.ends.part[row])
-        if offer.kind in ("face", "corner"):
+        if offer.of_two_ends:
             yield part, int(found.ends.part[offer.other if offer.row == row else offer.row])
         elif offer.kind != "sleeve":
             yield part, offer.other

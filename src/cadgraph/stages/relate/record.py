@@ -41,7 +41,7 @@ def record_joints(piping: Piping, units: Sequence[UnitParts], drawing: Drawing) 
 def _made(found: Attachments) -> Iterator[Joint]:
     """One joint for each offer that was taken; one between two ends is there once."""
     for row, offer in sorted(found.made.items()):
-        if offer.kind not in ("face", "corner") or row == offer.row:
+        if not offer.of_two_ends or row == offer.row:
             yield _joint(found, offer, True)
 
 

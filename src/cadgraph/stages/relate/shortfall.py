@@ -163,8 +163,7 @@ def _joined_pairs(piping: Piping) -> Iterator[tuple[int, int]]:
     """Pairs of parts that join in one way or another."""
     found = piping.joints
     for row, offer in found.made.items():
-        other = int(found.ends.part[offer.other]) if offer.kind in ("face", "corner") else offer.other
-        yield int(found.ends.part[row]), other
+        yield int(found.ends.part[row]), offer.part(found.ends)
     for row, twin in found.doubled:
         yield int(found.ends.part[row]), int(found.ends.part[twin])
     for side in found.sides:
