@@ -1,4 +1,5 @@
-"""Builds a wheel of the product alone, installs it into an empty environment, and runs the demo there.
+"""Builds a wheel of the product alone, installs it into an empty environment, and runs the demo there; then the
+generator of plants beside it, which makes a plant and proves it.
 
 python tools/check_wheel.py
 
@@ -45,6 +46,17 @@ def index_is_reachable(folder: Path) -> bool:
     return _run(asked, folder).returncode == 0
 
 
+def build_plants(folder: Path) -> Path:
+    """Builds the wheel of the generator of plants into a folder.
+
+    Raises:
+        WheelError: it can't be built.
+    """
+    _must(_run(_pip("wheel", "--no-deps", "--wheel-dir", str(folder), str(ROOT / "packages" / "cadplants")), folder))
+    (wheel,) = folder.glob("cadplants-*.whl")
+    return wheel
+
+
 def build_wheel(folder: Path) -> Path:
     """Builds the wheel of the product into a folder.
 
@@ -85,6 +97,21 @@ def try_out(wheel: Path, folder: Path) -> None:
         raise WheelError(f"'cadgraph environment make' ended with {refused.returncode}: {refused.stderr}")
 
 
+def try_out_plants(wheel: Path, folder: Path) -> None:
+    """Installs the generator beside the product, where ``try_out`` has put it, and makes and checks a plant.
+
+    Raises:
+        WheelError: something in that doesn't end as it should.
+    """
+    scripts = folder / "environment" / ("Scripts" if os.name == "nt" else "bin")
+    constraints = str(ROOT / "constraints.txt")
+    _must(_run(_pip("install", "--constraint", constraints, str(wheel), python=scripts / "python"), folder))
+    cadplants = str(scripts / "cadplants")
+    _must(_run([cadplants, "make", "--preset", "tank", "-o", "tank.usdc"], folder))
+    _must(_run([cadplants, "check", "tank.usdc"], folder))
+    _must(_run([cadplants, "device", "gate valve/os&y", "--params", "tank.truth.json", "-o", "gate.usdc"], folder))
+
+
 def main() -> int:
     """Runs the check; 0 where all is well, 1 where not, 3 where no package index can be reached."""
     with tempfile.TemporaryDirectory() as name:
@@ -96,6 +123,7 @@ def main() -> int:
             wheel = build_wheel(folder)
             size = wheel.stat().st_size
             try_out(wheel, folder)
+            try_out_plants(build_plants(folder), folder)
         except WheelError as error:
             sys.stderr.write(f"{error}\n")
             return 1
