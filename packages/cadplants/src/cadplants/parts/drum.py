@@ -10,18 +10,15 @@ import numpy as np
 from cadgraph.model.scene import Floats
 from cadplants.model.plant import Assembly, Component, Unit, gather
 from cadplants.model.standards import PIPES
-from cadplants.parts.fastener import clamping
-from cadplants.parts.flange import GASKET, bolts, flange, flange_length, gasket, plate_thickness
+from cadplants.parts.flange import flange_length
 from cadplants.parts.piping import stub
-from cadplants.parts.vessel import Nozzle, Tank
+from cadplants.parts.vessel import STRAIGHT, WALL, Nozzle, Tank, head_solid, with_flange
 from cadplants.solids.mesh_ops import Solid, box, extrude, revolve, shared, weld
 from cadplants.solids.transforms import at, looking, spun
 from cadplants.styles.modeling_style import ModelingStyle
 
 __all__ = ["drum", "drum_reach"]
 
-_WALL = 0.006  # m
-_STRAIGHT = 0.04  # m, straight flange of a 2:1 head (ASME BPVC VIII-1, UG-32)
 _SADDLE = 0.16  # m, along the axis
 _WRAP = np.radians(60)  # half the angle that a saddle holds: 120 degrees in all (Zick)
 _BITE = 0.0005  # m; welded parts run this deep into each other
@@ -32,14 +29,9 @@ _OUT = {"top": (0.0, 0.0, 1.0), "right": (1.0, 0.0, 0.0), "left": (-1.0, 0.0, 0.
 @shared
 def _shell_solids(radius: float, length: float, sides: int) -> tuple[Solid, Solid]:
     """Shell along z about its middle, and a head whose open end is at z = 0."""
-    inner, half = radius - _WALL, length / 2
+    inner, half = radius - WALL, length / 2
     shell = weld([revolve([(inner, -half), (radius, -half), (radius, half), (inner, half)], sides, closed=True)])
-    angles = np.linspace(0, np.pi / 2, 15)
-    outside = [(radius, 0.0)] + [(radius * np.cos(a), _STRAIGHT + radius / 2 * np.sin(a)) for a in angles[:-1]]
-    inside = [(0.0, _STRAIGHT + radius / 2 - _WALL)]
-    inside += [(inner * np.cos(a), _STRAIGHT + (radius / 2 - _WALL) * np.sin(a)) for a in angles[:-1][::-1]]
-    inside += [(inner, 0.0), (radius, 0.0)]
-    return shell, weld([revolve([*outside, (0.0, _STRAIGHT + radius / 2), *inside], sides)])
+    return shell, head_solid(radius, sides)
 
 
 @shared
@@ -106,7 +98,7 @@ def drum(
 
 def drum_reach(radius: float, length: float) -> float:
     """Half the length of a lying tank over its heads [m]; ``length`` of its shell [m]."""
-    return length / 2 + _STRAIGHT + radius / 2
+    return length / 2 + STRAIGHT + radius / 2
 
 
 def _saddle(style: ModelingStyle, radius: float, axis: float, sides: int) -> Assembly:
@@ -136,20 +128,4 @@ def _nozzle(nozzle: Nozzle, style: ModelingStyle, radius: float, axis: float) ->
     stand[:3, 0], stand[:3, 1], stand[:3, 2], stand[:3, 3] = across, np.cross(out, across), out, foot + low * out
     pipe = stub(dn, 0.0, high - neck - low, 0.0, style, "Tank", name, "tank").placed(stand)
     face = looking(foot + high * out, out)
-    body = Component(flange(dn, style).components[0].solid, "Tank", name, style.color("tank"))
-    parts = [pipe, Assembly((body,)).placed(face @ spun("z", np.pi))]
-    joints = [(0, 1)]
-    if nozzle.manway:
-        pad = GASKET if style.gaskets else 0.0
-        parts.append(gasket(dn, style).placed(face))
-        n_pads = len(parts[-1].components)
-        lid = Component(flange(dn, style, blind=True).components[0].solid, "Tank", name, style.color("tank"))
-        parts.append(Assembly((lid,)).placed(face @ at(pad)))
-        joints += [(1, 2), (2, 3)] if n_pads else [(1, 2)]
-        plate = plate_thickness(dn)
-        studs = bolts(dn, 2 * plate + pad, style).placed(face @ at(-plate))
-        start = 3 + n_pads
-        parts.append(studs)
-        for near, far in clamping(range(start, start + len(studs.components)), style):
-            joints += [(1, near), (2 + n_pads, far)]
-    return gather(parts, joints), face
+    return with_flange(nozzle, pipe, face, style), face

@@ -18,11 +18,11 @@ from cadplants.solids.polygon import circle, rounded_rectangle
 from cadplants.solids.transforms import at, looking, spun
 from cadplants.styles.modeling_style import ModelingStyle
 
-__all__ = ["Nozzle", "Tank", "skin", "tank"]
+__all__ = ["STRAIGHT", "WALL", "Nozzle", "Tank", "head_solid", "skin", "tank", "with_flange"]
 
 _FEW = 16  # sides of a shell where round things have so many at most
-_WALL = 0.006  # m
-_STRAIGHT = 0.04  # m, straight flange of a 2:1 head (ASME BPVC VIII-1, UG-32)
+WALL = 0.006  # m
+STRAIGHT = 0.04  # m, straight flange of a 2:1 head (ASME BPVC VIII-1, UG-32)
 
 
 @dataclass(frozen=True)
@@ -64,15 +64,21 @@ class Tank:
 @shared
 def _shell_solids(radius: float, height: float, sides: int) -> tuple[Solid, Solid]:
     """Shell from z = 0, and a head whose open end is at z = 0."""
-    inner = radius - _WALL
+    inner = radius - WALL
     shell = weld([revolve([(inner, 0), (radius, 0), (radius, height), (inner, height)], sides, closed=True)])
-    angles = np.linspace(0, np.pi / 2, 15)
-    outside = [(radius, 0.0)] + [(radius * np.cos(a), _STRAIGHT + radius / 2 * np.sin(a)) for a in angles[:-1]]
-    outside.append((0.0, _STRAIGHT + radius / 2))
-    inside = [(0.0, _STRAIGHT + radius / 2 - _WALL)]
-    inside += [(inner * np.cos(a), _STRAIGHT + (radius / 2 - _WALL) * np.sin(a)) for a in angles[:-1][::-1]]
+    return shell, head_solid(radius, sides)
+
+
+@shared
+def head_solid(radius: float, sides: int) -> Solid:
+    """A 2:1 head of sheet about z, its open end at z = 0."""
+    inner, angles = radius - WALL, np.linspace(0, np.pi / 2, 15)
+    outside = [(radius, 0.0)] + [(radius * np.cos(a), STRAIGHT + radius / 2 * np.sin(a)) for a in angles[:-1]]
+    outside.append((0.0, STRAIGHT + radius / 2))
+    inside = [(0.0, STRAIGHT + radius / 2 - WALL)]
+    inside += [(inner * np.cos(a), STRAIGHT + (radius / 2 - WALL) * np.sin(a)) for a in angles[:-1][::-1]]
     inside += [(inner, 0.0), (radius, 0.0)]
-    return shell, weld([revolve([*outside, *inside], sides)])
+    return weld([revolve([*outside, *inside], sides)])
 
 
 @shared
@@ -107,7 +113,7 @@ def tank(
     """
     sides = _FEW if _is_coarse(style) else 72
     shell, head = _shell_solids(radius, height, sides)
-    low = clearance + radius / 2 + _STRAIGHT
+    low = clearance + radius / 2 + STRAIGHT
     color, group = style.color("tank"), "Tank"
     parts = [
         Assembly(
@@ -137,7 +143,7 @@ def tank(
         Component(c.solid, c.group, c.name, c.color, c.pose, unit if c.group == group else "") for c in whole.components
     )
     whole = Assembly(named, whole.contacts, whole.units)
-    return Tank(whole, tuple(faces), tuple(flanges), low + height + _STRAIGHT + radius / 2)
+    return Tank(whole, tuple(faces), tuple(flanges), low + height + STRAIGHT + radius / 2)
 
 
 def _is_coarse(style: ModelingStyle) -> bool:
@@ -191,27 +197,32 @@ def _nozzle(
         share = np.hypot(x, y) / radius
         inner = max(0.0, share - PIPES[dn].radius / radius)
         outer = min(0.999, share + PIPES[dn].radius / radius)
-        base = low + height + _STRAIGHT
+        base = low + height + STRAIGHT
         lowest = base + radius / 2 * np.sqrt(1 - outer**2) - 0.003
         top = base + radius / 2 * np.sqrt(1 - inner**2) + nozzle.length
         pipe = stub(dn, 0.0, top - neck - lowest, 0.0, style, "Tank", name, "tank").placed(at(x, y, lowest))
         face = looking((x, y, top), (0.0, 0.0, 1.0))
-    body = flange(dn, style)
-    body = Assembly((Component(body.components[0].solid, "Tank", name, style.color("tank")),))
-    parts = [pipe, body.placed(face @ spun("z", np.pi))]
-    joints = [(0, 1)]
-    if nozzle.manway:
-        pad = GASKET if style.gaskets else 0.0
-        parts.append(gasket(dn, style).placed(face))
-        lid = flange(dn, style, blind=True)
-        lid = Assembly((Component(lid.components[0].solid, "Tank", name, style.color("tank")),))
-        n_pads = len(parts[-1].components)
-        parts.append(lid.placed(face @ at(pad)))
-        joints += [(1, 2), (2, 3)] if n_pads else [(1, 2)]
-        plate = plate_thickness(dn)
-        studs = bolts(dn, 2 * plate + pad, style).placed(face @ at(-plate))
-        first = 3 + n_pads
-        parts.append(studs)
-        for near, far in clamping(range(first, first + len(studs.components)), style):
-            joints += [(1, near), (2 + n_pads, far)]
-    return gather(parts, joints), face
+    return with_flange(nozzle, pipe, face, style), face
+
+
+def with_flange(nozzle: Nozzle, pipe: Assembly, face: Floats, style: ModelingStyle) -> Assembly:
+    """A nozzle's pipe with the flange at its face; on a manway a lid behind a gasket, bolted to it."""
+    dn, name = nozzle.dn, "manway" if nozzle.manway else "nozzle"
+    parts = [pipe, _of_tank(flange(dn, style), name, style).placed(face @ spun("z", np.pi))]
+    if not nozzle.manway:
+        return gather(parts, [(0, 1)])
+    pad, plate = GASKET if style.gaskets else 0.0, plate_thickness(dn)
+    parts.append(gasket(dn, style).placed(face))
+    lid = 2 + len(parts[-1].components)
+    parts.append(_of_tank(flange(dn, style, blind=True), name, style).placed(face @ at(pad)))
+    studs = bolts(dn, 2 * plate + pad, style).placed(face @ at(-plate))
+    parts.append(studs)
+    joints = [(0, 1), *((k, k + 1) for k in range(1, lid))]
+    for near, far in clamping(range(lid + 1, lid + 1 + len(studs.components)), style):
+        joints += [(1, near), (lid, far)]
+    return gather(parts, joints)
+
+
+def _of_tank(made: Assembly, name: str, style: ModelingStyle) -> Assembly:
+    """A flange as a piece of the tank."""
+    return Assembly((Component(made.components[0].solid, "Tank", name, style.color("tank")),))
